@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Parallel loops whose result does not depend on the number of threads. The only layer that
+// knows oneTBB is parallel.cpp behind this header.
+//
+// Law: work is cut into blocks by `grain` alone, never by the thread count; a body writes only
+// the slots of its own indices; reductions combine block results in block order.
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace delos::parallel {
+
+/// Owns the arena that all loops of one instance run in; loops may be nested.
+class Executor {
+ public:
+  /// n_threads <= 0: as many as the machine has.
+  explicit Executor(int n_threads = 0);
+  ~Executor();
+  Executor(const Executor&) = delete;
+  Executor& operator=(const Executor&) = delete;
+
+  int n_threads() const;
+  /// Slot of the calling thread in [0, n_threads()), for scratch memory that is reused.
+  int thread_slot() const;
+  /// Runs body(block) for block in [0, n_blocks), each once, in any order. The first exception
+  /// that a body throws is rethrown here after the others have ended.
+  void run_blocks(std::int64_t n_blocks, const std::function<void(std::int64_t)>& body);
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// body(begin, end) over [0, n) in blocks of `grain` indices.
+template <class Body>
+void for_range(Executor& exec, std::int64_t n, std::int64_t grain, Body&& body) {
+  const std::int64_t n_blocks = (n + grain - 1) / grain;
+  exec.run_blocks(n_blocks, [&](std::int64_t block) {
+    const std::int64_t begin = block * grain;
+    body(begin, begin + grain < n ? begin + grain : n);
+  });
+}
+
+/// body(i) for i in [0, n).
+template <class Body>
+void for_index(Executor& exec, std::int64_t n, std::int64_t grain, Body&& body) {
+  for_range(exec, n, grain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) body(i);
+  });
+}
+
+/// Result of combine(...combine(identity, map(block 0))..., map(last block)), in block order:
+/// the grain is part of the answer, the thread count is not. map(begin, end) -> T.
+template <class T, class Map, class Combine>
+T reduce(Executor& exec, std::int64_t n, std::int64_t grain, T identity, Map&& map,
+         Combine&& combine) {
+  std::vector<T> partial(static_cast<std::size_t>((n + grain - 1) / grain), identity);
+  for_range(exec, n, grain, [&](std::int64_t begin, std::int64_t end) {
+    partial[static_cast<std::size_t>(begin / grain)] = map(begin, end);
+  });
+  T total = std::move(identity);
+  for (T& value : partial) total = combine(std::move(total), std::move(value));
+  return total;
+}
+
+/// Sum of term(i) for i in [0, n); see reduce.
+template <class Term>
+double sum(Executor& exec, std::int64_t n, std::int64_t grain, Term&& term) {
+  return reduce(
+      exec, n, grain, 0.0,
+      [&](std::int64_t begin, std::int64_t end) {
+        double partial = 0.0;
+        for (std::int64_t i = begin; i < end; ++i) partial += term(i);
+        return partial;
+      },
+      [](double a, double b) { return a + b; });
+}
+
+/// offsets[i] = count(0) + ... + count(i - 1), n + 1 values; offsets[n] is the total.
+template <class Count>
+std::vector<std::int64_t> exclusive_scan(Executor& exec, std::int64_t n, std::int64_t grain,
+                                         Count&& count) {
+  std::vector<std::int64_t> offsets(static_cast<std::size_t>(n) + 1, 0);
+  for_index(exec, n, grain,
+            [&](std::int64_t i) { offsets[static_cast<std::size_t>(i) + 1] = count(i); });
+  for (std::int64_t i = 0; i < n; ++i) {
+    offsets[static_cast<std::size_t>(i) + 1] += offsets[static_cast<std::size_t>(i)];
+  }
+  return offsets;
+}
+
+}  // namespace delos::parallel
