@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// delos: Delaunay/Voronoi grids of the sphere and the ellipsoid. Everything public.
+//
+//   const auto config = delos::Config::from_file("world_ocean.yaml");
+//   const delos::Grid grid = delos::generate(config);
+//   for (double area_m2 : grid.cell_area_m2()) ...
+#include "delos/config.hpp"    // IWYU pragma: export
+#include "delos/error.hpp"     // IWYU pragma: export
+#include "delos/generate.hpp"  // IWYU pragma: export
+#include "delos/grid.hpp"      // IWYU pragma: export
+#include "delos/version.hpp"   // IWYU pragma: export
