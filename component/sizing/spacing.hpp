@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The wanted spacing h(x): the finished product of this layer, what refine and relax look up.
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -46,17 +47,25 @@ class SpacingField {
   void evaluate(std::span<Vertex> vertices) const;
 
   bool is_constant() const { return table_ == nullptr; }
+  /// Least and greatest scaled spacing.
   double min() const { return min_; }
   double max() const { return max_; }
+  /// The table back in metres, for files and pictures; of a constant, one of 1 degree.
+  LatLonField to_table() const;
+  LatitudeKind latitude() const;
 
  private:
+  friend double expected_vertices(parallel::Executor&, const Ellipsoid&, const SpacingField&);
   struct Table;
   std::shared_ptr<const Table> table_;
   double min_ = 0.0, max_ = 0.0;
+  double scale_m_ = 1.0;
 };
 
 /// Expected number of vertices: the integral of 2 / (sqrt(3) h^2) over the surface (each vertex
-/// owns two equilateral triangles of side h).
+/// owns two equilateral triangles of side h). The bilinear h is integrated exactly within each
+/// cell of the table, the area element taken at the cell's centre; relative error below 1e-4 for
+/// tables of 1 degree or finer, whatever the contrast of h.
 double expected_vertices(parallel::Executor& exec, const Ellipsoid& surface,
                          const SpacingField& spacing);
 
