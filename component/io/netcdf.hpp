@@ -95,6 +95,9 @@ class Reader {
 
  private:
   void read_contents();
+  template <class T>
+  void read_any(const std::string& variable, std::span<const std::size_t> start,
+                std::span<const std::size_t> count, std::span<T> out) const;
 
   std::string path_;
   int handle_ = -1;
@@ -168,8 +171,8 @@ class Writer {
   void put_block(VariableId variable, std::span<const std::size_t> start,
                  std::span<const std::size_t> count, std::span<const std::int32_t> values);
 
-  /// Writes what is buffered, and to the disk itself: an error here (disk full) is an
-  /// Error(output), and the file is incomplete.
+  /// Writes what is buffered: an error here (disk full) is an Error(output), and the file is
+  /// incomplete.
   void close();
 
  private:
