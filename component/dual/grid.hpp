@@ -39,21 +39,22 @@ struct Grid {
   // --- connectivity; entry j of a cell's three lists: edge j joins vertex j-1 to vertex j, and
   //     cells_on_cell[j] is across edge j
   Ragged<Index> edges_on_cell, vertices_on_cell, cells_on_cell;
-  std::vector<std::array<Index, 2>> cells_on_edge;     // normal points from [0] to [1], [0] < [1]
-  std::vector<std::array<Index, 2>> vertices_on_edge;  // [0] to [1] is 90 degrees left of the normal
-  std::vector<std::array<Index, 3>> cells_on_vertex;   // cell j between edges j and j+1
+  std::vector<std::array<Index, 2>> cells_on_edge;  // normal points from [0] to [1], [0] < [1]
+  std::vector<std::array<Index, 2>>
+      vertices_on_edge;                               // [0] to [1] is 90 degrees left of the normal
+  std::vector<std::array<Index, 3>> cells_on_vertex;  // cell j between edges j and j+1
   std::vector<std::array<Index, 3>> edges_on_vertex;
   Ragged<Index> edges_on_edge;  // first those of cells_on_edge[0], then those of [1]
 
   // --- measures
-  std::vector<double> cell_area_m2;                      // [n_cells]
-  std::vector<double> triangle_area_m2;                  // [n_vertices] sum of its kites
-  std::vector<std::array<double, 3>> kite_area_m2;       // [n_vertices] as cells_on_vertex
-  std::vector<double> cell_distance_m;                   // [n_edges] between the two cells (dc)
-  std::vector<double> vertex_distance_m;                 // [n_edges] between the two vertices (dv)
-  std::vector<double> edge_angle_rad;                    // [n_edges] of the normal from local east
-  Ragged<double> weights_on_edge;                        // tangential weights, as edges_on_edge
-  std::vector<double> cell_spacing_m;                    // [n_cells] the spacing that was asked for
+  std::vector<double> cell_area_m2;                 // [n_cells]
+  std::vector<double> triangle_area_m2;             // [n_vertices] sum of its kites
+  std::vector<std::array<double, 3>> kite_area_m2;  // [n_vertices] as cells_on_vertex
+  std::vector<double> cell_distance_m;              // [n_edges] between the two cells (dc)
+  std::vector<double> vertex_distance_m;            // [n_edges] between the two vertices (dv)
+  std::vector<double> edge_angle_rad;               // [n_edges] of the normal from local east
+  Ragged<double> weights_on_edge;                   // tangential weights, as edges_on_edge
+  std::vector<double> cell_spacing_m;               // [n_cells] the spacing that was asked for
 
   std::int64_t n_cells() const { return static_cast<std::int64_t>(cell_position.size()); }
   std::int64_t n_edges() const { return static_cast<std::int64_t>(cells_on_edge.size()); }

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The tables that say which cell, edge and vertex touch.
+#include "core/parallel.hpp"
+#include "dual/grid.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos::dual {
+
+/// Fills every table of Grid that holds indices, from the triangles alone. Count, scan, fill; O(n).
+void connect(parallel::Executor& exec, const Mesh& mesh, Grid& grid);
+
+}  // namespace delos::dual

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Quality of a triangulation and of its dual, straight from the mesh: every number of the report.
+// Angles, areas and radii of triangles are those of the flat (chordal) triangles; lengths are
+// chords; positions of dual vertices are the centres of the surface Delaunay balls.
+#include <cstdint>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "geometry/ellipsoid.hpp"
+#include "sizing/spacing.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// The worst element of one measure, and where it is. For an edge, id is the lower vertex and
+/// other the higher one; for a vertex or a triangle, other is kNone.
+struct Extreme {
+  double value = 0.0;
+  Index id = kNone;
+  Index other = kNone;
+  LonLat where{0.0, 0.0};
+};
+
+/// counts[i] = values in [lower + i w, lower + (i + 1) w), w = (upper - lower) / counts.size(); the
+/// first and the last bin also take what lies outside.
+struct Histogram {
+  double lower = 0.0, upper = 0.0;
+  std::vector<std::int64_t> counts;
+};
+
+struct Quality {
+  // --- counts
+  std::int64_t n_vertices = 0, n_triangles = 0, n_edges = 0;
+  std::int64_t euler = 0;           ///< n_vertices - n_edges + n_triangles, 2 when right
+  std::int64_t n_non_delaunay = 0;  ///< sides that the surface Delaunay would flip
+  std::int64_t n_degenerate = 0;    ///< triangles of zero area or folded over; 0 when right
+
+  // --- triangles
+  Extreme area_length_min;  ///< (4 sqrt(3) / 3) area / mean squared edge; ideal 1
+  double area_length_p01 = 0.0, area_length_mean = 0.0;
+  Extreme angle_min_deg, angle_max_deg;
+  double angle_mad_deg = 0.0;  ///< mean |angle - 60|
+  Extreme radius_edge_max;     ///< circumradius / shortest edge; ideal 0.577
+  double radius_edge_mean = 0.0;
+  double well_centred = 0.0;  ///< fraction of triangles that are acute
+  std::int64_t n_obtuse = 0;  ///< the others (largest angle >= 90 degrees)
+  Extreme grading_max;        ///< area ratio of neighbours; where = the smaller triangle
+
+  // --- edges
+  Extreme relative_edge_min, relative_edge_max;  ///< length / spacing at the projected midpoint
+  double relative_edge_mean = 0.0, relative_edge_std = 0.0;
+  Extreme dual_ratio_min;  ///< signed length of the dual edge / length of the edge; ideal 0.577
+  double dual_ratio_mean = 0.0;
+  Extreme stagger_max;  ///< distance of the two midpoints / length of the edge; ideal 0
+  double stagger_mean = 0.0;
+  double edge_length_min_m = 0.0, edge_length_mean_m = 0.0, edge_length_max_m = 0.0;
+  double spacing_min_m = 0.0, spacing_max_m = 0.0;  ///< asked for, at the edges' midpoints
+
+  // --- vertices and cells
+  double degree_5 = 0.0, degree_6 = 0.0, degree_7 = 0.0, degree_other = 0.0;  ///< fractions
+  std::int64_t n_degree_5 = 0, n_degree_6 = 0, n_degree_7 = 0, n_degree_other = 0;
+  Extreme degree_min, degree_max;
+  Extreme cell_area_min_m2, cell_area_max_m2;  ///< of the Voronoi cells
+  double total_area_m2 = 0.0;                  ///< sum of the cell areas
+  double total_area_error = 0.0;               ///< relative to the surface's area
+
+  // --- for pictures
+  Histogram area_length;    ///< [0.5, 1], 100 bins
+  Histogram angle_deg;      ///< [0, 180], 180 bins
+  Histogram relative_edge;  ///< [0, 2], 200 bins
+  Histogram degree;         ///< [0, 16], one bin a degree
+};
+
+/// What a C-grid model needs to know before it trusts the grid.
+struct Certificate {
+  bool well_centred = false;  ///< every triangle acute, every dual edge crosses its edge
+  std::int64_t n_obtuse = 0;
+  Extreme max_angle_deg;
+  Extreme min_relative_edge;
+  Extreme min_dual_ratio;
+};
+
+/// Measures a closed mesh of at least four vertices. Never NaN: a degenerate triangle counts in
+/// n_degenerate, has quality 0 and an angle of 180 degrees. Exact percentiles; the same bits for
+/// any number of threads. Latitudes of places are of the given kind.
+Quality measure_quality(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+                        const Mesh& mesh, LatitudeKind latitude = LatitudeKind::geodetic);
+
+/// The same where no field is at hand (a grid read from a file): the spacing of an edge is the mean
+/// of Vertex::spacing at its ends; without it (<= 0) the edge counts as ideal, 1.
+Quality measure_quality(Context& context, const Ellipsoid& surface, const Mesh& mesh,
+                        LatitudeKind latitude = LatitudeKind::geodetic);
+
+Certificate certificate(const Quality& quality);
+
+}  // namespace delos

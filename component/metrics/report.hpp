@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The report of one grid, for programs (JSON) and for people (one screen of text).
+#include <string>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "metrics/quality.hpp"
+
+namespace delos {
+
+using ReportValue = std::variant<bool, std::int64_t, double, std::string>;
+
+/// One named object of plain values in the report, e.g. "refine" or "config", in the order given.
+struct ReportSection {
+  std::string name;
+  std::vector<std::pair<std::string, ReportValue>> values;
+};
+
+/// An input file and its checksum.
+struct ReportInput {
+  std::string path;
+  std::string sha256;
+};
+
+struct Report {
+  std::string title;    ///< e.g. the configuration's name
+  std::string version;  ///< of delos
+  Ellipsoid surface;
+  Quality quality;
+  double expected_vertices = 0.0;  ///< from the spacing field; 0 = unknown
+  int n_threads = 0;
+  std::vector<PhaseTime> phases;
+  std::string digest;  ///< of the grid
+  std::vector<ReportSection> sections;
+  std::vector<ReportInput> inputs;
+};
+
+/// JSON, two spaces, keys in a fixed order, numbers that read back to the same double. Everything
+/// but "phases" depends on the grid alone. Error(internal) naming the key when a number is not
+/// finite.
+std::string report_json(const Report& report);
+
+/// At most 24 lines of at most 80 columns, each ended by a newline.
+std::string report_text(const Report& report);
+
+}  // namespace delos
