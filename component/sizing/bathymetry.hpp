@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Spacing that resolves the sea floor's slope and the tide's wave length.
+#include "core/parallel.hpp"
+#include "geometry/ellipsoid.hpp"
+#include "sizing/spacing.hpp"
+
+namespace delos {
+
+/// h = 2 pi H / (cells |grad H|), the topographic length scale (Hannah & Wright 1995; Lyard et al.
+/// 2006, doi:10.1007/s10236-006-0086-x). H is the depth, at least `min_depth_m`.
+struct SlopeSource {
+  double cells = 20.0;      ///< cells a topographic wave length
+  double smooth_rad = 0.0;  ///< Gaussian sigma applied to the elevation first; 0 = none
+  double min_depth_m = 10.0;
+  double max_m = 1.0e6;  ///< where the floor is flat
+};
+
+/// h = T sqrt(g H) / cells, the length of the tidal wave of period T (Westerink et al. 1994).
+struct TidalSource {
+  double period_s = 12.42 * 3600.0;
+  double cells = 100.0;
+  double min_depth_m = 10.0;
+};
+
+/// From elevation (m, positive up, sea < 0) on the nodes of the table to metres of spacing in
+/// place. On land the depth is `min_depth_m`; give land a spacing of its own.
+void fill_slope(parallel::Executor& exec, const Ellipsoid& surface, const SlopeSource& source,
+                LatLonField& elevation_to_spacing);
+void fill_tidal(parallel::Executor& exec, const TidalSource& source,
+                LatLonField& elevation_to_spacing);
+
+/// Gravity for c = sqrt(g H), m/s2.
+inline constexpr double kGravity = 9.80665;
+
+}  // namespace delos
