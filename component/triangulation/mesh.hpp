@@ -2,6 +2,7 @@
 #pragma once
 // The triangulation: a closed genus-0 surface in flat arrays. Data only; the algorithms are its
 // neighbours in this folder.
+#include <string>
 #include <vector>
 
 #include "core/types.hpp"
