@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "pictures/cell_painter.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace delos::pictures {
+
+namespace {
+
+constexpr Colour kLand{0.80, 0.79, 0.76, 1.0};
+// Part of the land's grey over the colour of the cell.
+constexpr double kLandCover = 0.84;
+constexpr Colour kInk{0.05, 0.06, 0.10, 1.0};
+
+}  // namespace
+
+std::vector<double> cell_sizes_km(const Grid& grid) {
+  std::vector<double> sizes(grid.cell_area_m2.size());
+  std::transform(grid.cell_area_m2.begin(), grid.cell_area_m2.end(), sizes.begin(),
+                 [](double area_m2) { return 1e-3 * std::sqrt(area_m2 * 2.0 / std::sqrt(3.0)); });
+  return sizes;
+}
+
+CellPainter::CellPainter(const Grid& grid, const LandMask* land)
+    : grid_(grid), land_(land), sizes_km_(cell_sizes_km(grid)), scale_(sizes_km_) {
+  cell_colours_.reserve(sizes_km_.size());
+  for (const double size : sizes_km_) cell_colours_.push_back(scale_.colour(size));
+}
+
+Colour CellPainter::colour(const Vec3& p, Index& hint) const {
+  double nearest = (grid_.cell_position[static_cast<std::size_t>(hint)] - p).squaredNorm();
+  for (Index at = kNone; at != hint;) {
+    at = hint;
+    for (const Index neighbour : grid_.cells_on_cell.row(at)) {
+      const double distance =
+          (grid_.cell_position[static_cast<std::size_t>(neighbour)] - p).squaredNorm();
+      if (distance < nearest) {
+        nearest = distance;
+        hint = neighbour;
+      }
+    }
+  }
+  const Colour& own = cell_colours_[static_cast<std::size_t>(hint)];
+  if (land_ == nullptr) return own;
+  const LonLat where = grid_.surface.lon_lat(p, grid_.latitude);
+  const double lon = where.lon_rad * kDegPerRad, lat = where.lat_rad * kDegPerRad;
+  if (!land_->is_land(lon, lat)) return own;
+  const double shade = land_->shade(lon, lat);
+  return mix(own, {kLand.r * shade, kLand.g * shade, kLand.b * shade, 1.0}, kLandCover);
+}
+
+void Outlines::add(const Segment& segment, double cell_px) {
+  if (!is_visible(cell_px)) return;
+  const double strength = (cell_px - kOutlineFrom_px) / (kOutlineFull_px - kOutlineFrom_px);
+  const auto level = static_cast<std::size_t>(strength * static_cast<double>(kLevels));
+  levels_[std::min(level, kLevels - 1)].push_back(segment);
+}
+
+void Outlines::draw(Canvas& canvas) const {
+  for (std::size_t level = 0; level < kLevels; ++level) {
+    const double strength = static_cast<double>(level + 1) / static_cast<double>(kLevels);
+    Colour ink = kInk;
+    ink.a = 0.08 + 0.42 * strength;
+    canvas.segments(levels_[level], {ink, 0.55 + 0.35 * strength});
+  }
+}
+
+std::vector<std::string> facts(const Grid& grid, const std::vector<double>& sizes_km) {
+  const auto [low, high] = std::minmax_element(sizes_km.begin(), sizes_km.end());
+  std::vector<double> sorted(sizes_km);
+  const auto middle = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2);
+  std::nth_element(sorted.begin(), middle, sorted.end());
+  const Vec3 radii_km = 1e-3 * grid.surface.scale_m() * grid.surface.radii();
+  std::string body = grid.surface.is_sphere() ? text("sphere of radius ", radii_km.x(), " km")
+                                              : text("ellipsoid ", short_number(radii_km.x()),
+                                                     " / ", short_number(radii_km.y()), " / ",
+                                                     short_number(radii_km.z()), " km");
+  return {text(grouped(grid.n_cells()), " cells, ", grouped(grid.n_edges()), " edges"),
+          text("cell size ", short_number(*low), " to ", short_number(*high), " km, median ",
+               short_number(*middle), " km"),
+          body};
+}
+
+std::string summary(const Grid& grid, const std::vector<double>& sizes_km) {
+  std::string joined;
+  for (const std::string& fact : facts(grid, sizes_km)) {
+    joined += (joined.empty() ? "" : "   \u00b7   ") + fact;
+  }
+  return joined;
+}
+
+}  // namespace delos::pictures
