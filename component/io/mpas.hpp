@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// MPAS mesh files: the C-grid as MPAS-Ocean, MPAS-Atmosphere, MPAS-Tools and swe-python read it.
+// MPAS knows spheres only: bring a grid of an ellipsoid to the sphere first (geometry/conformal).
+#include <string>
+
+#include "dual/grid.hpp"
+#include "io/netcdf.hpp"
+#include "io/provenance.hpp"
+
+namespace delos {
+
+struct MpasOptions {
+  netcdf::Format format = netcdf::Format::cdf5;
+  /// Lengths in units of the radius and sphere_radius = 1, as MPAS-Atmosphere's init wants; else
+  /// metres.
+  bool on_unit_sphere = false;
+};
+
+/// Writes every variable of the MPAS mesh specification, ids from 1, 0 = none; atomically.
+/// Error(output) when the surface is no sphere or the file can't be written: then nothing is.
+/// Beyond the specification: `delos_spacing` [nCells], the spacing that was asked for, and the
+/// attributes of write_provenance().
+void write_mpas(const std::string& path, const Grid& grid, const Provenance& provenance,
+                const MpasOptions& options = {});
+
+/// Reads all back: write_mpas, then read_mpas gives the grid's tables exactly and its numbers to
+/// rounding (exactly, on a unit sphere). Any closed or open MPAS mesh on a sphere is accepted;
+/// missing neighbours become kNone. A file without `delos_spacing` gets gridSpacing, or else the
+/// mean distance to the neighbours. The radius is that of the file: 1 m for a unit sphere.
+/// Error(input) naming the variable and the entry when a table is missing or names what is not
+/// there.
+Grid read_mpas(const std::string& path);
+
+/// What `parent_id` of a file that is derived from this one must hold; empty when the file has no
+/// file_id.
+std::string mpas_parent_id(const std::string& path);
+
+/// graph.info for METIS: "nCells nInternalEdges", then the neighbours of each cell, from 1.
+void write_graph_info(const std::string& path, const Grid& grid);
+
+/// Bytes of the file that write_mpas makes, within a few per cent, to check the disk before a run.
+std::uint64_t mpas_size_bytes(std::int64_t n_cells);
+
+}  // namespace delos

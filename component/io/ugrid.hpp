@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// UGRID 1.0 files that CDO and ESMF read too, on any ellipsoid, and the spacing on its lat-lon
+// table.
+#include <optional>
+#include <string>
+
+#include "dual/grid.hpp"
+#include "io/netcdf.hpp"
+#include "io/provenance.hpp"
+#include "sizing/spacing.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+struct UgridOptions {
+  netcdf::Format format = netcdf::Format::cdf5;
+  /// The corners of every face, which CDO needs: 48 bytes a triangle. Leave out for huge meshes.
+  bool bounds = true;
+};
+
+/// What a UGRID file is told about the surface that its longitudes and latitudes are on.
+struct UgridSurface {
+  Ellipsoid ellipsoid;
+  LatitudeKind latitude = LatitudeKind::geodetic;
+};
+
+/// The triangulation, topology `delos_triangles`: faces are triangles, nodes their corners, face
+/// coordinates the centres of their surface Delaunay balls. Atomic. Needs no dual: blocks of
+/// triangles stream to the file.
+void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const UgridSurface& surface,
+                           const Provenance& provenance, const UgridOptions& options = {});
+
+/// The Voronoi cells, topology `delos_cells`: faces are cells, nodes their corners. Atomic.
+void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenance& provenance,
+                       const UgridOptions& options = {});
+
+/// A UGRID topology of dimension 2.
+struct UgridMesh {
+  std::string topology;                ///< name of the variable
+  std::vector<LonLat> node;            ///< radians, lon in (-pi, pi]
+  std::vector<LonLat> face_centre;     ///< the same; empty when the file has none
+  Ragged<Index> nodes_on_face;         ///< from 0, in the order of the file
+  std::vector<double> face_area_m2;    ///< empty when the file has none
+  std::optional<Ellipsoid> ellipsoid;  ///< when the file says so
+  LatitudeKind latitude = LatitudeKind::geodetic;
+};
+
+/// Reads the first topology of dimension 2 of any UGRID file: start_index 0 or 1, padding by
+/// _FillValue, degrees or radians, either order of the connectivity's dimensions.
+UgridMesh read_ugrid(const std::string& path);
+
+/// The lat-lon table of the spacing as a CF variable `spacing`(lat, lon) in metres; longitudes
+/// -180 <= lon < 180. Atomic.
+void write_spacing(const std::string& path, const LatLonField& spacing_m,
+                   const Provenance& provenance, netcdf::Format format = netcdf::Format::netcdf4);
+
+/// Bytes of the file that write_ugrid_triangles makes, within a few per cent.
+std::uint64_t ugrid_triangles_size_bytes(std::int64_t n_vertices, const UgridOptions& options = {});
+
+}  // namespace delos
