@@ -39,10 +39,11 @@ struct Grid {
   // --- connectivity; entry j of a cell's three lists: edge j joins vertex j-1 to vertex j, and
   //     cells_on_cell[j] is across edge j
   Ragged<Index> edges_on_cell, vertices_on_cell, cells_on_cell;
-  std::vector<std::array<Index, 2>> cells_on_edge;  // normal points from [0] to [1], [0] < [1]
-  std::vector<std::array<Index, 2>>
-      vertices_on_edge;                               // [0] to [1] is 90 degrees left of the normal
-  std::vector<std::array<Index, 3>> cells_on_vertex;  // cell j between edges j and j+1
+  //     an edge's normal points from its cell [0] to its cell [1], [0] < [1]; its vertex [1] is 90
+  //     degrees left of that; cell j of a vertex is between its edges j and j+1
+  std::vector<std::array<Index, 2>> cells_on_edge;
+  std::vector<std::array<Index, 2>> vertices_on_edge;
+  std::vector<std::array<Index, 3>> cells_on_vertex;
   std::vector<std::array<Index, 3>> edges_on_vertex;
   Ragged<Index> edges_on_edge;  // first those of cells_on_edge[0], then those of [1]
 

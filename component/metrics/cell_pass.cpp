@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "metrics/passes.hpp"
+
+namespace delos::metrics {
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Degree of a vertex and the area of its Voronoi cell: the fan of the ball centres around it,
+// signed.
+void measure_cell(const Subject& subject, const Workspace& work, Index vertex, Index first,
+                  CellSums& sums) {
+  const Vec3 generator = subject.mesh.position(vertex);
+  double area = 0.0;
+  int degree = 0;
+  Index tri = first;
+  do {
+    const Triangle& triangle = subject.mesh.triangle(tri);
+    const Index next = triangle.neighbour[at(next_corner(corner_at(triangle, vertex)))];
+    area += subject.surface.triangle_area(generator, work.facets[at(tri)].ball_centre,
+                                          work.facets[at(next)].ball_centre);
+    ++degree;
+    tri = next;
+  } while (tri != first);
+  sums.area += area;
+  sums.area_min.keep_lower({area, vertex});
+  sums.area_max.keep_higher({area, vertex});
+  sums.degree_min.keep_lower({static_cast<double>(degree), vertex});
+  sums.degree_max.keep_higher({static_cast<double>(degree), vertex});
+  sums.degree_bins.add(degree);
+}
+
+}  // namespace
+
+CellSums measure_cells(parallel::Executor& exec, const Subject& subject, const Workspace& work) {
+  const std::vector<Index> first = triangle_at_vertex(subject.mesh);
+  return sum_blocks<CellSums>(
+      exec, subject.mesh.n_vertices(), [&](std::int64_t begin, std::int64_t end) {
+        CellSums sums;
+        for (std::int64_t vertex = begin; vertex < end; ++vertex) {
+          measure_cell(subject, work, static_cast<Index>(vertex), first[at(vertex)], sums);
+        }
+        return sums;
+      });
+}
+
+}  // namespace delos::metrics

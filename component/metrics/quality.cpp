@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "metrics/quality.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "metrics/passes.hpp"
+
+namespace delos {
+namespace {
+
+using metrics::Best;
+using metrics::Subject;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+// Turns the winners of the passes into places a person can find.
+struct Places {
+  const Subject& subject;
+  LatitudeKind latitude;
+
+  Extreme at_vertex(const Best& best, double unit = 1.0) const {
+    return extreme(best, unit, subject.mesh.position(best.id));
+  }
+  Extreme at_edge(const Best& best) const {
+    return extreme(best, 1.0, subject.mesh.position(best.id) + subject.mesh.position(best.other));
+  }
+  Extreme at_triangle(const Best& best) const {
+    const auto& corner = subject.mesh.triangle(best.id).vertex;
+    return extreme(best, 1.0,
+                   subject.mesh.position(corner[0]) + subject.mesh.position(corner[1]) +
+                       subject.mesh.position(corner[2]));
+  }
+
+ private:
+  Extreme extreme(const Best& best, double unit, const Vec3& towards) const {
+    const Vec3 place = subject.surface.project(towards);
+    return {best.value * unit, best.id, best.other, subject.surface.lon_lat(place, latitude)};
+  }
+};
+
+template <int N>
+Histogram histogram(const metrics::Bins<N>& bins) {
+  return {bins.lower, bins.upper, {bins.counts.begin(), bins.counts.end()}};
+}
+
+// The value that a fraction of the others stay below, linear between neighbours of the sorted list.
+double percentile(std::vector<double>& values, double fraction) {
+  const double position = fraction * static_cast<double>(values.size() - 1);
+  const auto below = static_cast<std::ptrdiff_t>(position);
+  std::nth_element(values.begin(), values.begin() + below, values.end());
+  const double low = values[at(below)];
+  if (at(below) + 1 == values.size()) return low;
+  const double high = *std::min_element(values.begin() + below + 1, values.end());
+  return low + (position - static_cast<double>(below)) * (high - low);
+}
+
+void fill_triangles(const metrics::TriangleSums& sums, const Places& places, Quality& quality) {
+  const auto n = static_cast<double>(quality.n_triangles);
+  quality.n_degenerate = sums.n_degenerate;
+  quality.area_length_min = places.at_triangle(sums.area_length_min);
+  quality.area_length_mean = sums.area_length / n;
+  quality.angle_min_deg = places.at_triangle(sums.angle_min);
+  quality.angle_max_deg = places.at_triangle(sums.angle_max);
+  quality.angle_mad_deg = sums.deviation_deg / (3.0 * n);
+  quality.radius_edge_max = places.at_triangle(sums.radius_edge_max);
+  quality.radius_edge_mean = sums.radius_edge / n;
+  quality.well_centred = static_cast<double>(sums.n_acute) / n;
+  quality.n_obtuse = quality.n_triangles - sums.n_acute;
+  quality.area_length = histogram(sums.area_length_bins);
+  quality.angle_deg = histogram(sums.angle_bins);
+}
+
+void fill_edges(const metrics::EdgeSums& sums, const Places& places, Quality& quality) {
+  const auto n = static_cast<double>(sums.n);
+  const double metres = places.subject.surface.scale_m();
+  quality.n_edges = sums.n;
+  quality.n_non_delaunay = sums.n_non_delaunay;
+  quality.grading_max = places.at_triangle(sums.grading_max);
+  quality.relative_edge_min = places.at_edge(sums.relative_min);
+  quality.relative_edge_max = places.at_edge(sums.relative_max);
+  const double excess = sums.excess / n;
+  quality.relative_edge_mean = 1.0 + excess;
+  quality.relative_edge_std = std::sqrt(std::max(0.0, sums.square_excess / n - excess * excess));
+  quality.dual_ratio_min = places.at_edge(sums.dual_ratio_min);
+  quality.dual_ratio_mean = sums.dual_ratio / n;
+  quality.stagger_max = places.at_edge(sums.stagger_max);
+  quality.stagger_mean = sums.stagger / n;
+  quality.edge_length_min_m = sums.length_min.value * metres;
+  quality.edge_length_mean_m = sums.length / n * metres;
+  quality.edge_length_max_m = sums.length_max.value * metres;
+  quality.spacing_min_m = sums.spacing_min.value * metres;
+  quality.spacing_max_m = sums.spacing_max.value * metres;
+  quality.relative_edge = histogram(sums.relative_bins);
+}
+
+void fill_cells(const metrics::CellSums& sums, const Places& places, Quality& quality) {
+  const auto n = static_cast<double>(quality.n_vertices);
+  const Ellipsoid& surface = places.subject.surface;
+  const double square_metres = surface.scale_m() * surface.scale_m();
+  const auto& count = sums.degree_bins.counts;
+  quality.n_degree_5 = count[5];
+  quality.n_degree_6 = count[6];
+  quality.n_degree_7 = count[7];
+  quality.n_degree_other = quality.n_vertices - count[5] - count[6] - count[7];
+  quality.degree_5 = static_cast<double>(quality.n_degree_5) / n;
+  quality.degree_6 = static_cast<double>(quality.n_degree_6) / n;
+  quality.degree_7 = static_cast<double>(quality.n_degree_7) / n;
+  quality.degree_other = static_cast<double>(quality.n_degree_other) / n;
+  quality.degree_min = places.at_vertex(sums.degree_min);
+  quality.degree_max = places.at_vertex(sums.degree_max);
+  quality.cell_area_min_m2 = places.at_vertex(sums.area_min, square_metres);
+  quality.cell_area_max_m2 = places.at_vertex(sums.area_max, square_metres);
+  quality.total_area_m2 = sums.area * square_metres;
+  quality.total_area_error = std::abs(sums.area / surface.area() - 1.0);
+  quality.degree = histogram(sums.degree_bins);
+}
+
+Quality measure(parallel::Executor& exec, const Subject& subject, LatitudeKind latitude) {
+  DELOS_CHECK(subject.mesh.n_vertices() >= 4 && subject.mesh.n_triangles() >= 4,
+              ErrorKind::internal, "a mesh of ", subject.mesh.n_vertices(), " vertices and ",
+              subject.mesh.n_triangles(), " triangles has no quality: a closed surface has 4.");
+  const Places places{subject, latitude};
+  Quality quality;
+  quality.n_vertices = subject.mesh.n_vertices();
+  quality.n_triangles = subject.mesh.n_triangles();
+  metrics::Workspace work;
+  fill_triangles(metrics::measure_triangles(exec, subject, work), places, quality);
+  quality.area_length_p01 = percentile(work.area_length, 0.01);
+  fill_edges(metrics::measure_edges(exec, subject, work), places, quality);
+  fill_cells(metrics::measure_cells(exec, subject, work), places, quality);
+  quality.euler = quality.n_vertices - quality.n_edges + quality.n_triangles;
+  return quality;
+}
+
+}  // namespace
+
+Quality measure_quality(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+                        const Mesh& mesh, LatitudeKind latitude) {
+  return measure(context.exec, {surface, &spacing, mesh}, latitude);
+}
+
+Quality measure_quality(Context& context, const Ellipsoid& surface, const Mesh& mesh,
+                        LatitudeKind latitude) {
+  return measure(context.exec, {surface, nullptr, mesh}, latitude);
+}
+
+Certificate certificate(const Quality& quality) {
+  return {quality.n_obtuse == 0 && quality.n_degenerate == 0, quality.n_obtuse,
+          quality.angle_max_deg, quality.relative_edge_min, quality.dual_ratio_min};
+}
+
+}  // namespace delos
