@@ -1,2 +1,292 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "metrics/report.hpp"
+
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+namespace delos {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// ------------------------------------------------------------------ JSON
+
+// A number for the report; `key` names it in the message when it can't be written.
+Json number(const std::string& key, double value) {
+  DELOS_CHECK(std::isfinite(value), ErrorKind::internal, "report key '", key, "' is ", value,
+              ": a quality measure must be finite; keep the configuration and report a bug.");
+  return value;
+}
+
+Json place(const std::string& key, const Extreme& extreme) {
+  Json out;
+  out["value"] = number(key, extreme.value);
+  if (extreme.other == kNone) {
+    out["id"] = extreme.id;
+  } else {
+    out["vertices"] = {extreme.id, extreme.other};
+  }
+  out["lon_deg"] = number(key, extreme.where.lon_rad * kDegPerRad);
+  out["lat_deg"] = number(key, extreme.where.lat_rad * kDegPerRad);
+  return out;
+}
+
+Json histogram(const Histogram& bins) {
+  return {{"lower", bins.lower}, {"upper", bins.upper}, {"counts", bins.counts}};
+}
+
+// An object filled key by key, every number checked.
+struct Object {
+  Json json = Json::object();
+  Object& add(const std::string& key, double value) {
+    json[key] = number(key, value);
+    return *this;
+  }
+  Object& add(const std::string& key, std::int64_t value) {
+    json[key] = value;
+    return *this;
+  }
+  Object& add(const std::string& key, const Extreme& value) {
+    json[key] = place(key, value);
+    return *this;
+  }
+};
+
+Json counts_json(const Report& report) {
+  const Quality& q = report.quality;
+  Object out;
+  out.add("cells", q.n_vertices).add("vertices", q.n_triangles).add("edges", q.n_edges);
+  if (report.expected_vertices > 0.0) {
+    out.add("cells_expected", report.expected_vertices);
+    out.add("cells_over_expected", static_cast<double>(q.n_vertices) / report.expected_vertices);
+  }
+  out.add("euler", q.euler).add("non_delaunay_sides", q.n_non_delaunay);
+  out.add("degenerate_triangles", q.n_degenerate);
+  return out.json;
+}
+
+Json quality_json(const Quality& q) {
+  Object out;
+  out.add("area_length_min", q.area_length_min).add("area_length_p01", q.area_length_p01);
+  out.add("area_length_mean", q.area_length_mean);
+  out.add("angle_min_deg", q.angle_min_deg).add("angle_max_deg", q.angle_max_deg);
+  out.add("angle_mad_deg", q.angle_mad_deg);
+  out.add("radius_edge_max", q.radius_edge_max).add("radius_edge_mean", q.radius_edge_mean);
+  out.add("relative_edge_mean", q.relative_edge_mean);
+  out.add("relative_edge_std", q.relative_edge_std);
+  out.add("relative_edge_min", q.relative_edge_min).add("relative_edge_max", q.relative_edge_max);
+  out.add("degree_5", q.degree_5).add("degree_6", q.degree_6).add("degree_7", q.degree_7);
+  out.add("degree_other", q.degree_other).add("n_degree_5", q.n_degree_5);
+  out.add("n_degree_6", q.n_degree_6).add("n_degree_7", q.n_degree_7);
+  out.add("n_degree_other", q.n_degree_other);
+  out.add("degree_min", q.degree_min).add("degree_max", q.degree_max);
+  out.add("well_centred", q.well_centred).add("n_obtuse", q.n_obtuse);
+  out.add("dual_ratio_min", q.dual_ratio_min).add("dual_ratio_mean", q.dual_ratio_mean);
+  out.add("stagger_mean", q.stagger_mean).add("stagger_max", q.stagger_max);
+  out.add("grading_max", q.grading_max);
+  return out.json;
+}
+
+Json sizes_json(const Quality& q) {
+  Object out;
+  out.add("spacing_min_m", q.spacing_min_m).add("spacing_max_m", q.spacing_max_m);
+  out.add("edge_length_min_m", q.edge_length_min_m);
+  out.add("edge_length_mean_m", q.edge_length_mean_m);
+  out.add("edge_length_max_m", q.edge_length_max_m);
+  out.add("cell_area_min_m2", q.cell_area_min_m2).add("cell_area_max_m2", q.cell_area_max_m2);
+  out.add("total_area_m2", q.total_area_m2).add("total_area_error", q.total_area_error);
+  return out.json;
+}
+
+Json certificate_json(const Certificate& c) {
+  Json out;
+  out["well_centred"] = c.well_centred;
+  out["n_obtuse"] = c.n_obtuse;
+  out["max_angle_deg"] = place("max_angle_deg", c.max_angle_deg);
+  out["min_relative_edge"] = place("min_relative_edge", c.min_relative_edge);
+  out["min_dual_ratio"] = place("min_dual_ratio", c.min_dual_ratio);
+  return out;
+}
+
+Json section_json(const ReportSection& section) {
+  Json out = Json::object();
+  for (const auto& [key, value] : section.values) {
+    const std::string name = section.name + "." + key;
+    if (const auto* real = std::get_if<double>(&value)) {
+      out[key] = number(name, *real);
+    } else {
+      std::visit([&](const auto& plain) { out[key] = plain; }, value);
+    }
+  }
+  return out;
+}
+
+Json phases_json(const std::vector<PhaseTime>& phases) {
+  Json out = Json::array();
+  for (const PhaseTime& phase : phases) {
+    out.push_back({{"phase", phase.phase}, {"wall_s", phase.wall_s}, {"items", phase.items}});
+  }
+  return out;
+}
+
+// ------------------------------------------------------------------ text
+
+constexpr std::size_t kColumns = 80;
+constexpr std::size_t kLines = 24;
+
+// printf into a string, for columns that line up; cut at the width of the screen.
+template <class... Values>
+std::string line(const char* format, const Values&... values) {
+  char buffer[2 * kColumns];
+  const int n = std::snprintf(buffer, sizeof buffer, format, values...);
+  return {buffer, std::min(static_cast<std::size_t>(std::max(n, 0)), kColumns)};
+}
+
+std::string grouped(std::int64_t n) {
+  std::string digits = std::to_string(n);
+  for (int i = static_cast<int>(digits.size()) - 3; i > 0; i -= 3) {
+    digits.insert(static_cast<std::size_t>(i), " ");
+  }
+  return digits;
+}
+
+std::string length(double metres) {
+  char buffer[32];
+  const bool is_long = metres >= 1000.0;
+  std::snprintf(buffer, sizeof buffer, "%.4g %s", is_long ? metres / 1000.0 : metres,
+                is_long ? "km" : "m");
+  return buffer;
+}
+
+// "12.345W 67.890N"
+std::string place_text(const LonLat& where) {
+  const double lon = where.lon_rad * kDegPerRad, lat = where.lat_rad * kDegPerRad;
+  char buffer[48];
+  std::snprintf(buffer, sizeof buffer, "%.3f%c %.3f%c", std::abs(lon), lon < 0.0 ? 'W' : 'E',
+                std::abs(lat), lat < 0.0 ? 'S' : 'N');
+  return buffer;
+}
+
+void add_sizes(const Report& report, std::vector<std::string>& lines) {
+  const Quality& q = report.quality;
+  const Vec3 radii_km = report.surface.scale_m() / 1000.0 * report.surface.radii();
+  lines.push_back(report.surface.is_sphere()
+                      ? line("surface     sphere of radius %.6g km", radii_km.x())
+                      : line("surface     ellipsoid %.7g x %.7g x %.7g km", radii_km.x(),
+                             radii_km.y(), radii_km.z()));
+  std::string counts = "cells       " + grouped(q.n_vertices);
+  if (report.expected_vertices > 0.0) {
+    counts += " (" +
+              line("%.1f", 100.0 * static_cast<double>(q.n_vertices) / report.expected_vertices) +
+              " % of the expected count)";
+  }
+  lines.push_back(counts);
+  lines.push_back("also        " + grouped(q.n_edges) + " edges, " + grouped(q.n_triangles) +
+                  " triangles");
+  lines.push_back("spacing     wanted " + length(q.spacing_min_m) + " to " +
+                  length(q.spacing_max_m) + "; edges " + length(q.edge_length_min_m) + " to " +
+                  length(q.edge_length_max_m));
+  lines.push_back(line("area        sums to the surface within %.1e; cells %.4g to %.4g km2",
+                       q.total_area_error, q.cell_area_min_m2.value * 1e-6,
+                       q.cell_area_max_m2.value * 1e-6));
+}
+
+void add_quality(const Quality& q, std::vector<std::string>& lines) {
+  lines.push_back("quality           worst     mean    ideal   place of the worst");
+  const auto row = [&](const char* name, const Extreme& worst, double mean, const char* ideal) {
+    lines.push_back(line("  %-12s %8.4f %8.4f %8s   %s", name, worst.value, mean, ideal,
+                         place_text(worst.where).c_str()));
+  };
+  const auto single = [&](const char* name, const Extreme& worst, const char* ideal) {
+    lines.push_back(line("  %-12s %8.4f %8s %8s   %s", name, worst.value, "", ideal,
+                         place_text(worst.where).c_str()));
+  };
+  row("area-length", q.area_length_min, q.area_length_mean, "1");
+  single("angle min", q.angle_min_deg, "60");
+  single("angle max", q.angle_max_deg, "60");
+  row("radius-edge", q.radius_edge_max, q.radius_edge_mean, "0.577");
+  row("edge/h min", q.relative_edge_min, q.relative_edge_mean, "1");
+  row("edge/h max", q.relative_edge_max, q.relative_edge_mean, "1");
+  row("dual/edge", q.dual_ratio_min, q.dual_ratio_mean, "0.577");
+  row("stagger", q.stagger_max, q.stagger_mean, "0");
+  lines.push_back(line("  degree 5 / 6 / 7 / other: %.2f / %.2f / %.2f / %.4f %%",
+                       100.0 * q.degree_5, 100.0 * q.degree_6, 100.0 * q.degree_7,
+                       100.0 * q.degree_other));
+}
+
+void add_verdict(const Report& report, std::vector<std::string>& lines) {
+  const Quality& q = report.quality;
+  const Certificate c = certificate(q);
+  const bool is_sound = q.euler == 2 && q.n_degenerate == 0;
+  lines.push_back(is_sound ? line("structure   closed and whole; %lld non-Delaunay sides",
+                                  static_cast<long long>(q.n_non_delaunay))
+                           : line("structure   BROKEN: Euler %lld, %lld degenerate triangles",
+                                  static_cast<long long>(q.euler),
+                                  static_cast<long long>(q.n_degenerate)));
+  lines.push_back(
+      c.well_centred
+          ? line("certificate well centred: every angle below %.2f degrees", c.max_angle_deg.value)
+          : line("certificate NOT well centred: %lld obtuse triangles, worst at %s",
+                 static_cast<long long>(c.n_obtuse), place_text(c.max_angle_deg.where).c_str()));
+}
+
+void add_times(const std::vector<PhaseTime>& phases, std::vector<std::string>& lines) {
+  if (phases.empty()) return;
+  double total_s = 0.0;
+  for (const PhaseTime& phase : phases) total_s += phase.wall_s;
+  std::string row = line("time        %.2f s:", total_s);
+  for (const PhaseTime& phase : phases) {
+    const std::string entry = line(" %s %.2f", phase.phase.c_str(), phase.wall_s);
+    if (row.size() + entry.size() > kColumns) {
+      lines.push_back(row);
+      row = std::string(11, ' ');
+    }
+    row += entry;
+  }
+  lines.push_back(row);
+}
+
+}  // namespace
+
+std::string report_json(const Report& report) {
+  const Ellipsoid& surface = report.surface;
+  const Vec3 radii_m = surface.scale_m() * surface.radii();
+  Json out;
+  out["title"] = report.title;
+  out["delos_version"] = report.version;
+  out["digest"] = report.digest;
+  out["radii_m"] = {radii_m.x(), radii_m.y(), radii_m.z()};
+  out["counts"] = counts_json(report);
+  out["sizes"] = sizes_json(report.quality);
+  out["quality"] = quality_json(report.quality);
+  out["certificate"] = certificate_json(certificate(report.quality));
+  for (const ReportSection& section : report.sections) out[section.name] = section_json(section);
+  out["inputs"] = Json::array();
+  for (const ReportInput& input : report.inputs) {
+    out["inputs"].push_back({{"path", input.path}, {"sha256", input.sha256}});
+  }
+  out["histograms"] = {{"area_length", histogram(report.quality.area_length)},
+                       {"angle_deg", histogram(report.quality.angle_deg)},
+                       {"relative_edge", histogram(report.quality.relative_edge)},
+                       {"degree", histogram(report.quality.degree)}};
+  out["threads"] = report.n_threads;
+  out["phases"] = phases_json(report.phases);
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_text(const Report& report) {
+  std::vector<std::string> lines;
+  lines.push_back(report.title + " (delos " + report.version + ")");
+  add_sizes(report, lines);
+  add_quality(report.quality, lines);
+  add_verdict(report, lines);
+  add_times(report.phases, lines);
+  if (!report.digest.empty()) lines.push_back("digest      " + report.digest);
+  if (lines.size() > kLines) lines.erase(lines.begin() + kLines - 1, lines.end() - 1);
+  std::string out;
+  for (const std::string& text : lines) out += text.substr(0, kColumns) + "\n";
+  return out;
+}
+
+}  // namespace delos

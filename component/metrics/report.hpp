@@ -39,7 +39,8 @@ struct Report {
 };
 
 /// JSON, two spaces, keys in a fixed order, numbers that read back to the same double. Everything
-/// but "phases" depends on the grid alone. Error(internal) naming the key when a number is not
+/// but "threads" and "phases" depends on the grid alone. Error(internal) naming the key when a
+/// number is not
 /// finite.
 std::string report_json(const Report& report);
 
