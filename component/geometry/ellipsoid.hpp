@@ -5,6 +5,9 @@
 //
 // All functions work in scaled coordinates: origin at the centre, largest radius 1. to_metres()
 // and scale_m() are the way out.
+#include <Eigen/Geometry>
+#include <cmath>
+
 #include "core/types.hpp"
 
 namespace delos {
