@@ -311,13 +311,17 @@ const Variable& Reader::variable(const std::string& name) const {
                    "."));
 }
 
+int Reader::attribute_owner(const std::string& variable) const {
+  if (variable.empty()) return NC_GLOBAL;
+  this->variable(variable);
+  int id = -1;
+  check_read(nc_inq_varid(handle_, variable.c_str(), &id), path_, variable);
+  return id;
+}
+
 std::vector<std::string> Reader::attribute_names(const std::string& variable) const {
-  int id = NC_GLOBAL;
+  const int id = attribute_owner(variable);
   int n = 0;
-  if (!variable.empty()) {
-    this->variable(variable);
-    check_read(nc_inq_varid(handle_, variable.c_str(), &id), path_, variable);
-  }
   check_read(nc_inq_varnatts(handle_, id, &n), path_, variable);
   std::vector<std::string> names;
   for (int i = 0; i < n; ++i) {
@@ -330,13 +334,9 @@ std::vector<std::string> Reader::attribute_names(const std::string& variable) co
 
 std::optional<std::string> Reader::text_attribute(const std::string& variable,
                                                   const std::string& name) const {
-  int id = NC_GLOBAL;
+  const int id = attribute_owner(variable);
   nc_type code = NC_NAT;
   std::size_t length = 0;
-  if (!variable.empty()) {
-    this->variable(variable);
-    check_read(nc_inq_varid(handle_, variable.c_str(), &id), path_, variable);
-  }
   if (nc_inq_att(handle_, id, name.c_str(), &code, &length) != NC_NOERR) return std::nullopt;
   if (code == NC_CHAR) {
     std::string value(length, '\0');
@@ -353,19 +353,23 @@ std::optional<std::string> Reader::text_attribute(const std::string& variable,
 
 std::optional<std::vector<double>> Reader::number_attribute(const std::string& variable,
                                                             const std::string& name) const {
-  int id = NC_GLOBAL;
+  const int id = attribute_owner(variable);
   nc_type code = NC_NAT;
   std::size_t length = 0;
-  if (!variable.empty()) {
-    this->variable(variable);
-    check_read(nc_inq_varid(handle_, variable.c_str(), &id), path_, variable);
-  }
   if (nc_inq_att(handle_, id, name.c_str(), &code, &length) != NC_NOERR) return std::nullopt;
   const Type type = type_of(code);
   if (type == Type::text || type == Type::other) return std::nullopt;
   std::vector<double> values(length);
   check_read(nc_get_att_double(handle_, id, name.c_str(), values.data()), path_, variable);
   return values;
+}
+
+std::optional<Type> Reader::attribute_type(const std::string& variable,
+                                           const std::string& name) const {
+  nc_type code = NC_NAT;
+  const int owner = attribute_owner(variable);
+  if (nc_inq_atttype(handle_, owner, name.c_str(), &code) != NC_NOERR) return std::nullopt;
+  return type_of(code);
 }
 
 std::vector<double> Reader::read_double(const std::string& variable) const {

@@ -80,6 +80,9 @@ class Reader {
   std::optional<std::vector<double>> number_attribute(const std::string& variable,
                                                       const std::string& name) const;
 
+  /// Of an attribute; nothing when absent.
+  std::optional<Type> attribute_type(const std::string& variable, const std::string& name) const;
+
   /// Whole variable, converted to the type asked for; a value that does not fit is an error.
   std::vector<double> read_double(const std::string& variable) const;
   std::vector<std::int32_t> read_int32(const std::string& variable) const;
@@ -95,6 +98,7 @@ class Reader {
 
  private:
   void read_contents();
+  int attribute_owner(const std::string& variable) const;
   template <class T>
   void read_any(const std::string& variable, std::span<const std::size_t> start,
                 std::span<const std::size_t> count, std::span<T> out) const;

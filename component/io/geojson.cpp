@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "io/geojson.hpp"
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "core/error.hpp"
+#include "io/names.hpp"
+
+namespace delos {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Latitudes and longitudes beyond their range by less than this are rounding.
+constexpr double kTolerance_deg = 1e-6;
+/// GeometryCollections within each other: RFC 7946 advises against any; deeper is damage.
+constexpr int kMaxNesting = 8;
+
+Json parse_file(const std::string& path) {
+  std::error_code error;
+  DELOS_CHECK(std::filesystem::exists(path, error), ErrorKind::input, path,
+              ": no such file. Check the path.");
+  std::ifstream in(path, std::ios::binary);
+  DELOS_CHECK(in.good() && !std::filesystem::is_directory(path, error), ErrorKind::input, path,
+              ": can't be opened for reading. Check that it is a file and its permissions.");
+  try {
+    return Json::parse(in);
+  } catch (const Json::exception& e) {
+    throw Error(ErrorKind::input,
+                text(path, ": is not valid JSON: ", e.what(), ". Give a GeoJSON file here."));
+  }
+}
+
+std::string type_of(const Json& object, const std::string& where) {
+  DELOS_CHECK(object.is_object() && object.contains("type") && object["type"].is_string(),
+              ErrorKind::input, where, ": has no \"type\". Give a GeoJSON file (RFC 7946).");
+  return object["type"];
+}
+
+std::string name_of(const Json& feature) {
+  if (!feature.is_object() || !feature.contains("properties")) return "";
+  const Json& properties = feature["properties"];
+  for (const char* key : {"name", "Name", "NAME"}) {
+    if (properties.is_object() && properties.contains(key) && properties[key].is_string()) {
+      return properties[key];
+    }
+  }
+  return "";
+}
+
+/// Old files may name a coordinate system; only longitude and latitude in degrees can be used.
+void check_coordinate_system(const Json& root, const std::string& path) {
+  if (!root.contains("crs") || !root["crs"].is_object()) return;
+  const std::string crs = root["crs"].dump();
+  DELOS_CHECK(
+      crs.find("CRS84") != std::string::npos || crs.find("4326") != std::string::npos,
+      ErrorKind::input, path, ": its coordinate system is ", crs,
+      ". Convert it to longitude and latitude first, e.g. with `ogr2ogr -t_srs EPSG:4326`.");
+}
+
+/// How far to step in longitude: the short way, so that a ring over the date line continues.
+/// Kept as written are steps of a full turn (the side of a box around the globe) and steps along
+/// a pole, where longitude says nothing.
+double longitude_step(double from_lon, double to_lon, double from_lat, double to_lat) {
+  const double step = to_lon - from_lon;
+  const bool along_pole = std::abs(from_lat) == 90.0 && from_lat == to_lat;
+  const bool full_turn = std::abs(std::abs(step) - 360.0) <= kTolerance_deg;
+  if (along_pole || full_turn) return step;
+  return step - 360.0 * std::round(step / 360.0);
+}
+
+/// A ring that goes once round a pole is closed along that pole: the one of its mean latitude.
+void close_around_pole(PolygonRing& ring, double turn_deg) {
+  double sum_lat = 0.0;
+  for (const double lat : ring.lat_deg) sum_lat += lat;
+  const double pole = sum_lat < 0.0 ? -90.0 : 90.0;
+  const double first_lon = ring.lon_deg.front();
+  const double first_lat = ring.lat_deg.front();
+  for (const double lon : {first_lon + turn_deg, first_lon}) {
+    if (lon != first_lon) {
+      ring.lon_deg.push_back(lon);
+      ring.lat_deg.push_back(first_lat);
+    }
+    ring.lon_deg.push_back(lon);
+    ring.lat_deg.push_back(pole);
+  }
+}
+
+std::array<double, 2> read_position(const Json& position, const std::string& where) {
+  DELOS_CHECK(position.is_array() && position.size() >= 2 && position[0].is_number() &&
+                  position[1].is_number(),
+              ErrorKind::input, where, ": ", position.dump(),
+              " is not a position. It must be [longitude, latitude] in degrees.");
+  const double lon = position[0];
+  const double lat = position[1];
+  DELOS_CHECK(std::abs(lat) <= 90.0 + kTolerance_deg && std::abs(lon) <= 720.0, ErrorKind::input,
+              where, ": position [", lon, ", ", lat,
+              "] is outside the globe. Positions must be [longitude, latitude] in degrees.");
+  return {lon, std::fmax(-90.0, std::fmin(90.0, lat))};
+}
+
+PolygonRing read_ring(const Json& positions, const std::string& where) {
+  DELOS_CHECK(positions.is_array(), ErrorKind::input, where,
+              ": a ring is not an array. Repair it.");
+  std::vector<std::array<double, 2>> points;
+  for (const Json& position : positions) points.push_back(read_position(position, where));
+  if (points.size() > 1 && points.front() == points.back()) points.pop_back();
+  DELOS_CHECK(points.size() >= 3, ErrorKind::input, where, ": a ring has ", points.size(),
+              " different points: at least 3 are needed. Repair or remove it.");
+  PolygonRing ring;
+  double lon = points[0][0];
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    ring.lon_deg.push_back(lon);
+    ring.lat_deg.push_back(points[i][1]);
+    const auto& next = points[(i + 1) % points.size()];
+    lon += longitude_step(points[i][0], next[0], points[i][1], next[1]);
+  }
+  const double turn_deg = lon - points[0][0];
+  if (std::abs(turn_deg) > 180.0) close_around_pole(ring, turn_deg);
+  return ring;
+}
+
+void add_polygon(const Json& rings, const std::string& where, PolygonSet& polygons) {
+  DELOS_CHECK(rings.is_array(), ErrorKind::input, where,
+              ": its coordinates are not an array of rings. Repair them.");
+  for (const Json& ring : rings) polygons.rings.push_back(read_ring(ring, where));
+}
+
+void add_geometry(const Json& geometry, const std::string& where, int nesting,
+                  PolygonSet& polygons) {
+  if (geometry.is_null()) return;  // an unlocated feature
+  DELOS_CHECK(nesting <= kMaxNesting, ErrorKind::input, where,
+              ": GeometryCollections are nested too deeply. Repair it.");
+  const std::string type = type_of(geometry, where);
+  const bool is_collection = type == "GeometryCollection";
+  DELOS_CHECK(is_collection || type == "Polygon" || type == "MultiPolygon", ErrorKind::input, where,
+              ": it is a ", type, " where polygons are needed. Remove it, or choose another ",
+              "feature by name.");
+  const char* key = is_collection ? "geometries" : "coordinates";
+  DELOS_CHECK(geometry.contains(key) && geometry[key].is_array(), ErrorKind::input, where, ": its ",
+              type, " has no \"", key, "\". Repair it.");
+  const Json& parts = geometry[key];
+  if (type == "Polygon") {
+    add_polygon(parts, where, polygons);
+    return;
+  }
+  for (const Json& part : parts) {
+    if (is_collection) {
+      add_geometry(part, where, nesting + 1, polygons);
+    } else {
+      add_polygon(part, where, polygons);
+    }
+  }
+}
+
+std::string feature_where(const std::string& path, std::size_t number, const std::string& name) {
+  return text(path, ": feature ", number, name.empty() ? " (no name)" : " '" + name + "'");
+}
+
+/// The features of the file, whatever its outermost object is.
+std::vector<Json> features_of(Json root, const std::string& path) {
+  const std::string type = type_of(root, path);
+  check_coordinate_system(root, path);
+  if (type == "Feature") return {std::move(root)};
+  if (type == "FeatureCollection") {
+    DELOS_CHECK(root.contains("features") && root["features"].is_array(), ErrorKind::input, path,
+                ": the FeatureCollection has no \"features\". Repair it.");
+    return root["features"].get<std::vector<Json>>();
+  }
+  return {Json{{"type", "Feature"}, {"geometry", std::move(root)}}};
+}
+
+[[noreturn]] void refuse_unknown_name(const std::string& path, const std::string& wanted,
+                                      const std::vector<std::string>& names) {
+  const std::string nearest = nearest_name(wanted, names);
+  throw Error(
+      ErrorKind::input,
+      text(path, ": no feature named '", wanted, "'. ",
+           nearest.empty() ? "" : "Did you mean '" + nearest + "'? ",
+           names.empty() ? "Its features have no names" : "It has: " + join_names(names), "."));
+}
+
+}  // namespace
+
+PolygonSet read_polygons(const std::string& path, const std::string& feature_name) {
+  const std::vector<Json> features = features_of(parse_file(path), path);
+  PolygonSet polygons;
+  polygons.source = feature_name.empty() ? path : path + ":" + feature_name;
+  std::vector<std::string> names;
+  bool found = feature_name.empty();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const std::string name = name_of(features[i]);
+    if (!name.empty()) names.push_back(name);
+    if (!feature_name.empty() && name != feature_name) continue;
+    found = true;
+    const std::string where = feature_where(path, i, name);
+    DELOS_CHECK(features[i].is_object() && features[i].contains("geometry"), ErrorKind::input,
+                where, ": has no \"geometry\". Repair it.");
+    add_geometry(features[i]["geometry"], where, 0, polygons);
+  }
+  if (!found) refuse_unknown_name(path, feature_name, names);
+  DELOS_CHECK(!polygons.rings.empty(), ErrorKind::input, polygons.source,
+              ": holds no polygon. Give a file with polygons.");
+  return polygons;
+}
+
+}  // namespace delos
