@@ -114,6 +114,20 @@ AtomicFile::~AtomicFile() {
   if (pending_) ::unlink(temporary_.c_str());
 }
 
+void AtomicFile::fill(const std::function<void(const std::string&)>& write) {
+  try {
+    write(temporary());
+  } catch (const Error& error) {
+    std::string message = error.what();
+    const std::string name = temporary();
+    for (std::size_t at = 0; (at = message.find(name, at)) != std::string::npos;) {
+      message.replace(at, name.size(), target_.string());
+      at += target_.string().size();
+    }
+    throw Error(error.kind(), message);
+  }
+}
+
 void AtomicFile::flush() {
   const int handle = ::open(temporary_.c_str(), O_RDONLY | O_CLOEXEC);
   if (handle < 0) fail("write", target_, errno, advice_for(errno, folder_of(target_)));
@@ -136,10 +150,10 @@ void AtomicFile::commit() {
   flush_folder(folder_of(target_));
 }
 
-std::string OutputSet::add(const fs::path& target, std::uint64_t estimated_bytes) {
-  files_.emplace_back(target, promised_bytes_ + estimated_bytes);
-  promised_bytes_ += estimated_bytes;
-  return files_.back().temporary();
+void OutputSet::add(const fs::path& target, std::uint64_t estimated_bytes,
+                    const std::function<void(const std::string&)>& write) {
+  files_.emplace_back(target, estimated_bytes);
+  files_.back().fill(write);
 }
 
 void OutputSet::commit() {
@@ -167,7 +181,6 @@ void OutputSet::commit() {
   remove_old();
   for (const AtomicFile& file : files_) flush_folder(folder_of(file.target()));
   files_.clear();
-  promised_bytes_ = 0;
 }
 
 void write_text_atomically(const fs::path& path, const std::string& content) {

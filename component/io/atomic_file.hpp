@@ -4,6 +4,7 @@
 // the target, moved there in one step once they are safely on disk.
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <string>
 
@@ -28,6 +29,8 @@ class AtomicFile {
   std::string temporary() const { return temporary_.string(); }
   const std::filesystem::path& target() const { return target_; }
 
+  /// Calls write(temporary()); messages of the errors that it throws name the target instead.
+  void fill(const std::function<void(const std::string&)>& write);
   /// Forces the temporary to the disk; Error(output) when that fails (disk full).
   void flush();
   /// flush(), then rename: readers see the old file or the new one, never a part.
@@ -45,14 +48,16 @@ class AtomicFile {
 /// appears when one fails. If a rename fails all the same, the earlier ones are taken back.
 class OutputSet {
  public:
-  /// Returns the path to write to (it may be handed to any writer of this layer).
-  std::string add(const std::filesystem::path& target, std::uint64_t estimated_bytes = 0);
+  /// Calls write(path) at once with the path to write to, which may be handed to any writer of
+  /// this layer.
+  void add(const std::filesystem::path& target, std::uint64_t estimated_bytes,
+           const std::function<void(const std::string&)>& write);
+  /// All or none; then the set is empty again.
   void commit();
   std::size_t size() const { return files_.size(); }
 
  private:
   std::list<AtomicFile> files_;
-  std::uint64_t promised_bytes_ = 0;
 };
 
 /// The whole file at once, through an AtomicFile.

@@ -1,2 +1,372 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mpas.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <fstream>
+#include <functional>
+
+#include "core/error.hpp"
+#include "io/atomic_file.hpp"
+
+namespace delos {
+namespace {
+
+using netcdf::DimensionId;
+using netcdf::Type;
+
+// Rows that are gathered before they go to the file: a few megabytes of the widest table.
+constexpr std::int64_t kBlockRows = 65536;
+constexpr int kVertexDegree = 3;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+template <class T>
+constexpr Type type_of() {
+  return std::is_same_v<T, double> ? Type::float64 : Type::int32;
+}
+
+std::size_t max_edges_on_cell(const Grid& grid) {
+  std::int64_t most = 0;
+  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
+    most = std::max(
+        most, grid.edges_on_cell.offsets[at(cell) + 1] - grid.edges_on_cell.offsets[at(cell)]);
+  }
+  return at(most);
+}
+
+/// An MPAS file in the making: add() defines a variable and remembers how to fill it, finish()
+/// fills all in the order of their definition, which is the order in the file.
+class MpasFile {
+ public:
+  MpasFile(const std::string& path, const Grid& grid, const MpasOptions& options)
+      : grid_(grid), file_(path, options.format) {
+    const double radius_m = grid.surface.scale_m();
+    unit_m_ = options.on_unit_sphere ? radius_m : 1.0;
+    radius_ = radius_m / unit_m_;
+    max_edges_ = max_edges_on_cell(grid);
+    cells_ = file_.define_dimension("nCells", at(grid.n_cells()));
+    edges_ = file_.define_dimension("nEdges", at(grid.n_edges()));
+    vertices_ = file_.define_dimension("nVertices", at(grid.n_vertices()));
+    max_edges_dim_ = file_.define_dimension("maxEdges", max_edges_);
+    max_edges2_dim_ = file_.define_dimension("maxEdges2", 2 * max_edges_);
+    two_ = file_.define_dimension("TWO", 2);
+    vertex_degree_ = file_.define_dimension("vertexDegree", kVertexDegree);
+    file_.define_dimension("Time", netcdf::kUnlimited);
+  }
+
+  void add_attributes(const Provenance& provenance);
+  void add_places();
+  void add_cell_tables();
+  void add_edge_tables();
+  void add_vertex_tables();
+  void add_measures();
+  void add_diagnostics();
+  void finish();
+
+ private:
+  /// fill(row, values): the `width` values of one row, zero before.
+  template <class T>
+  using Fill = std::function<void(std::int64_t, std::span<T>)>;
+  template <class T>
+  void add_table(const std::string& name, DimensionId rows, DimensionId columns, Fill<T> fill) {
+    const std::size_t width = width_of(columns);
+    const auto id = file_.define_variable(name, type_of<T>(), {rows, columns});
+    puts_.push_back([=, this] { put_rows<T>(id, n_of(rows), width, true, fill); });
+  }
+  template <class T, class Value>
+  void add(const std::string& name, DimensionId rows, Value value) {
+    const auto id = file_.define_variable(name, type_of<T>(), {rows});
+    puts_.push_back([=, this] {
+      put_rows<T>(id, n_of(rows), 1, false,
+                  [&](std::int64_t i, std::span<T> out) { out[0] = static_cast<T>(value(i)); });
+    });
+  }
+  template <class T>
+  void put_rows(netcdf::VariableId id, std::int64_t n, std::size_t width, bool two_dimensional,
+                const Fill<T>& fill);
+  void add_ragged(const std::string& name, DimensionId rows, DimensionId columns,
+                  const Ragged<Index>& table) {
+    add_table<std::int32_t>(name, rows, columns,
+                            [&table](std::int64_t i, std::span<std::int32_t> out) {
+                              const auto row = table.row(i);
+                              std::transform(row.begin(), row.end(), out.begin(), id_from_one);
+                            });
+  }
+  template <std::size_t kWidth>
+  void add_ids(const std::string& name, DimensionId rows, DimensionId columns,
+               const std::vector<std::array<Index, kWidth>>& table) {
+    add_table<std::int32_t>(name, rows, columns,
+                            [&table](std::int64_t i, std::span<std::int32_t> out) {
+                              const auto& row = table[at(i)];
+                              std::transform(row.begin(), row.end(), out.begin(), id_from_one);
+                            });
+  }
+  void add_place(const std::string& entity, DimensionId rows, const std::vector<Vec3>& position,
+                 const std::vector<LonLat>& lon_lat);
+  static std::int32_t id_from_one(Index id) { return id + 1; }
+
+  std::int64_t n_of(DimensionId rows) const {
+    return rows.id == cells_.id   ? grid_.n_cells()
+           : rows.id == edges_.id ? grid_.n_edges()
+                                  : grid_.n_vertices();
+  }
+  std::size_t width_of(DimensionId columns) const {
+    return columns.id == max_edges_dim_.id    ? max_edges_
+           : columns.id == max_edges2_dim_.id ? 2 * max_edges_
+           : columns.id == two_.id            ? 2
+                                              : kVertexDegree;
+  }
+  double length(double metres) const { return metres / unit_m_; }
+  double area(double square_metres) const { return square_metres / (unit_m_ * unit_m_); }
+
+  const Grid& grid_;
+  netcdf::Writer file_;
+  std::vector<std::function<void()>> puts_;
+  double unit_m_ = 1.0;  // metres per unit of length of the file
+  double radius_ = 1.0;  // of the sphere, in that unit
+  std::size_t max_edges_ = 0;
+  DimensionId cells_, edges_, vertices_, max_edges_dim_, max_edges2_dim_, two_, vertex_degree_;
+};
+
+template <class T>
+void MpasFile::put_rows(netcdf::VariableId id, std::int64_t n, std::size_t width,
+                        bool two_dimensional, const Fill<T>& fill) {
+  std::vector<T> block;
+  for (std::int64_t begin = 0; begin < n; begin += kBlockRows) {
+    const std::int64_t rows = std::min(kBlockRows, n - begin);
+    block.assign(at(rows) * width, T{0});
+    for (std::int64_t i = 0; i < rows; ++i) {
+      fill(begin + i, std::span<T>(block.data() + at(i) * width, width));
+    }
+    const std::array<std::size_t, 2> start = {at(begin), 0}, count = {at(rows), width};
+    const std::size_t rank = two_dimensional ? 2 : 1;
+    file_.put_block(id, std::span(start.data(), rank), std::span(count.data(), rank),
+                    std::span<const T>(block));
+  }
+}
+
+void MpasFile::add_attributes(const Provenance& provenance) {
+  const netcdf::VariableId all = netcdf::kGlobal;
+  file_.attribute(all, "on_a_sphere", "YES");
+  file_.attribute(all, "sphere_radius", radius_);
+  file_.attribute(all, "is_periodic", "NO");
+  file_.attribute(all, "mesh_spec", "1.0");
+  file_.attribute(all, "Conventions", "MPAS");
+  file_.attribute(all, "source", "delos " + provenance.version);
+  file_.attribute(all, "file_id", file_id(provenance.digest));
+  if (!provenance.parent_id.empty()) file_.attribute(all, "parent_id", provenance.parent_id);
+  write_provenance(file_, provenance);
+}
+
+void MpasFile::add_place(const std::string& entity, DimensionId rows,
+                         const std::vector<Vec3>& position, const std::vector<LonLat>& lon_lat) {
+  add<double>("lat" + entity, rows, [&](std::int64_t i) { return lon_lat[at(i)].lat_rad; });
+  add<double>("lon" + entity, rows, [&](std::int64_t i) { return lon_lat[at(i)].lon_rad; });
+  for (int axis = 0; axis < 3; ++axis) {
+    add<double>(
+        std::string(1, "xyz"[axis]) + entity, rows,
+        [this, &position, axis](std::int64_t i) { return position[at(i)][axis] * radius_; });
+  }
+  add<std::int32_t>("indexTo" + entity + "ID", rows, [](std::int64_t i) { return i + 1; });
+}
+
+void MpasFile::add_places() {
+  add_place("Cell", cells_, grid_.cell_position, grid_.cell_lon_lat);
+  add_place("Edge", edges_, grid_.edge_position, grid_.edge_lon_lat);
+  add_place("Vertex", vertices_, grid_.vertex_position, grid_.vertex_lon_lat);
+}
+
+void MpasFile::add_cell_tables() {
+  add_ragged("cellsOnCell", cells_, max_edges_dim_, grid_.cells_on_cell);
+  add_ragged("edgesOnCell", cells_, max_edges_dim_, grid_.edges_on_cell);
+  add_ragged("verticesOnCell", cells_, max_edges_dim_, grid_.vertices_on_cell);
+  add<std::int32_t>("nEdgesOnCell", cells_,
+                    [this](std::int64_t i) { return grid_.edges_on_cell.row(i).size(); });
+}
+
+void MpasFile::add_edge_tables() {
+  add_ragged("edgesOnEdge", edges_, max_edges2_dim_, grid_.edges_on_edge);
+  add_ids("cellsOnEdge", edges_, two_, grid_.cells_on_edge);
+  add_ids("verticesOnEdge", edges_, two_, grid_.vertices_on_edge);
+  add<std::int32_t>("nEdgesOnEdge", edges_,
+                    [this](std::int64_t i) { return grid_.edges_on_edge.row(i).size(); });
+}
+
+void MpasFile::add_vertex_tables() {
+  add_ids("cellsOnVertex", vertices_, vertex_degree_, grid_.cells_on_vertex);
+  add_ids("edgesOnVertex", vertices_, vertex_degree_, grid_.edges_on_vertex);
+  add<std::int32_t>("boundaryVertex", vertices_, [this](std::int64_t i) {
+    const auto& cells = grid_.cells_on_vertex[at(i)];
+    return std::any_of(cells.begin(), cells.end(), [](Index cell) { return cell == kNone; });
+  });
+}
+
+void MpasFile::add_measures() {
+  const Grid& grid = grid_;
+  add<double>("areaCell", cells_, [&](std::int64_t i) { return area(grid.cell_area_m2[at(i)]); });
+  add<double>("angleEdge", edges_, [&](std::int64_t i) { return grid.edge_angle_rad[at(i)]; });
+  add<double>("dcEdge", edges_,
+              [&](std::int64_t i) { return length(grid.cell_distance_m[at(i)]); });
+  add<double>("dvEdge", edges_,
+              [&](std::int64_t i) { return length(grid.vertex_distance_m[at(i)]); });
+  add_table<double>("weightsOnEdge", edges_, max_edges2_dim_,
+                    [&grid](std::int64_t i, std::span<double> out) {
+                      const auto row = grid.weights_on_edge.row(i);
+                      std::copy(row.begin(), row.end(), out.begin());
+                    });
+  add<double>("areaTriangle", vertices_,
+              [&](std::int64_t i) { return area(grid.triangle_area_m2[at(i)]); });
+  add_table<double>("kiteAreasOnVertex", vertices_, vertex_degree_,
+                    [this](std::int64_t i, std::span<double> out) {
+                      const auto& kites = grid_.kite_area_m2[at(i)];
+                      std::transform(kites.begin(), kites.end(), out.begin(),
+                                     [this](double kite) { return area(kite); });
+                    });
+}
+
+/// Smallest and largest of what was seen.
+struct Range {
+  double min = std::numeric_limits<double>::infinity(), max = 0.0;
+  void include(double value) {
+    min = std::min(min, value);
+    max = std::max(max, value);
+  }
+  double ratio() const { return max > 0.0 ? min / max : 0.0; }
+};
+
+Range dual_edges_of_cell(const Grid& grid, std::int64_t cell) {
+  Range range;
+  for (const Index edge : grid.edges_on_cell.row(cell)) {
+    range.include(grid.vertex_distance_m[at(edge)]);
+  }
+  return range;
+}
+
+double mean_distance_m(const Grid& grid, std::int64_t cell) {
+  const auto edges = grid.edges_on_cell.row(cell);
+  double sum = 0.0;
+  for (const Index edge : edges) sum += grid.cell_distance_m[at(edge)];
+  return edges.empty() ? 0.0 : sum / static_cast<double>(edges.size());
+}
+
+Range sides_of_triangle(const Grid& grid, std::int64_t vertex) {
+  Range range;
+  for (const Index edge : grid.edges_on_vertex[at(vertex)]) {
+    if (edge != kNone) range.include(grid.cell_distance_m[at(edge)]);
+  }
+  return range;
+}
+
+/// Plane angles in radians; nothing is seen when a corner is missing.
+Range angles_of_triangle(const Grid& grid, std::int64_t vertex) {
+  Range range;
+  const auto& cells = grid.cells_on_vertex[at(vertex)];
+  if (std::find(cells.begin(), cells.end(), kNone) != cells.end()) return range;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3& corner = grid.cell_position[at(cells[k])];
+    const Vec3 u = grid.cell_position[at(cells[(k + 1) % 3])] - corner;
+    const Vec3 v = grid.cell_position[at(cells[(k + 2) % 3])] - corner;
+    range.include(std::atan2(u.cross(v).norm(), u.dot(v)));
+  }
+  return range;
+}
+
+// As the converter of MPAS-Tools defines them; no model reads them.
+void MpasFile::add_diagnostics() {
+  const Grid& grid = grid_;
+  add<double>("cellQuality", cells_,
+              [&](std::int64_t i) { return dual_edges_of_cell(grid, i).ratio(); });
+  add<double>("gridSpacing", cells_,
+              [&](std::int64_t i) { return length(mean_distance_m(grid, i)); });
+  add<double>("triangleQuality", vertices_,
+              [&](std::int64_t i) { return sides_of_triangle(grid, i).ratio(); });
+  add<double>("triangleAngleQuality", vertices_,
+              [&](std::int64_t i) { return angles_of_triangle(grid, i).ratio(); });
+  add<std::int32_t>("obtuseTriangle", vertices_,
+                    [&](std::int64_t i) { return angles_of_triangle(grid, i).max > 0.5 * kPi; });
+  const std::vector<double>& spacing = grid.cell_spacing_m;
+  const double finest = spacing.empty() ? 0.0 : *std::min_element(spacing.begin(), spacing.end());
+  add<double>("meshDensity", cells_, [&spacing, finest](std::int64_t i) {
+    if (spacing.empty()) return 1.0;
+    const double ratio = finest / spacing[at(i)];
+    return ratio * ratio * ratio * ratio;
+  });
+  if (spacing.empty()) return;
+  add<double>("delos_spacing", cells_,
+              [this, &spacing](std::int64_t i) { return length(spacing[at(i)]); });
+}
+
+void MpasFile::finish() {
+  file_.end_definitions();
+  for (const auto& put : puts_) put();
+  file_.close();
+}
+
+std::uint64_t size_bytes(std::int64_t n_cells, std::size_t max_edges) {
+  constexpr std::uint64_t kReal = 8, kId = 4, kPlace = 5 * kReal + kId;
+  const std::uint64_t cell = kPlace + 5 * kReal + kId * (1 + 3 * max_edges);
+  const std::uint64_t edge = kPlace + 3 * kReal + 5 * kId + 2 * max_edges * (kId + kReal);
+  const std::uint64_t vertex = kPlace + 3 * (2 * kId + kReal) + 3 * kReal + 2 * kId;
+  return static_cast<std::uint64_t>(n_cells) * (cell + 3 * edge + 2 * vertex);
+}
+
+}  // namespace
+
+void write_mpas(const std::string& path, const Grid& grid, const Provenance& provenance,
+                const MpasOptions& options) {
+  DELOS_CHECK(grid.surface.is_sphere(), ErrorKind::output, path,
+              ": MPAS files know spheres only, "
+              "this grid is on an ellipsoid. Map it to the sphere first, or write UGRID.");
+  AtomicFile target(path, size_bytes(grid.n_cells(), max_edges_on_cell(grid)));
+  target.fill([&](const std::string& temporary) {
+    MpasFile file(temporary, grid, options);
+    file.add_attributes(provenance);
+    file.add_places();
+    file.add_cell_tables();
+    file.add_edge_tables();
+    file.add_vertex_tables();
+    file.add_measures();
+    file.add_diagnostics();
+    file.finish();
+  });
+  target.commit();
+}
+
+void write_graph_info(const std::string& path, const Grid& grid) {
+  constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
+  AtomicFile target(path);
+  std::ofstream stream(target.temporary(), std::ios::binary | std::ios::trunc);
+  const auto n_internal =
+      std::count_if(grid.cells_on_edge.begin(), grid.cells_on_edge.end(),
+                    [](const auto& cells) { return cells[0] != kNone && cells[1] != kNone; });
+  std::string lines = text(grid.n_cells(), " ", n_internal, "\n");
+  const auto append = [&lines](Index neighbour) {
+    std::array<char, 16> digits{};
+    const auto end = std::to_chars(digits.begin(), digits.end(), neighbour + 1).ptr;
+    lines.append(digits.begin(), end);
+    lines += ' ';
+  };
+  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
+    for (const Index neighbour : grid.cells_on_cell.row(cell)) {
+      if (neighbour != kNone) append(neighbour);
+    }
+    lines += '\n';
+    if (lines.size() < kFlushBytes && cell + 1 < grid.n_cells()) continue;
+    stream.write(lines.data(), static_cast<std::streamsize>(lines.size()));
+    lines.clear();
+  }
+  stream.close();
+  DELOS_CHECK(stream.good(), ErrorKind::output, "can't write ", path,
+              ": the disk may be full. Free some space, or choose another output folder.");
+  target.commit();
+}
+
+std::uint64_t mpas_size_bytes(std::int64_t n_cells) {
+  constexpr std::size_t kUsualMaxEdges = 7;
+  return size_bytes(n_cells, kUsualMaxEdges);
+}
+
+}  // namespace delos
