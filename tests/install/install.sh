@@ -1,0 +1,38 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# Installs the given build into a fresh prefix, checks what is there, builds the consumer project
+# against it and runs that.
+#   install.sh BUILD_DIR [CMAKE_BUILD_TYPE]
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+build=$1
+type=${2:-Release}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+
+cmake --install "$build" --prefix "$work/prefix" --config "$type" >/dev/null
+# Only public headers: a header of the engine in the prefix would be a promise nobody made.
+strays=$(find "$work/prefix/include" -name '*.h*' -not -path '*/include/delos/*')
+if [[ -n $strays ]]; then
+  echo "installed, but not public: $strays" >&2
+  exit 1
+fi
+# Nothing may point back into the build or source tree.
+if grep -rlF -e "$build" -e "$(dirname "$(dirname "$here")")" "$work/prefix" --include='*.cmake' --include='*.hpp'; then
+  echo "the files above name the build or source tree" >&2
+  exit 1
+fi
+cmake -S "$here/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE="$type" >/dev/null
+cmake --build "$work/build" -j 2 >/dev/null
+"$work/build/consumer"
+# The library must show nothing but its own names.
+library=$(find "$work/prefix" -name 'libdelos.so' | head -1)
+if [[ -n $library ]]; then
+  strangers=$(nm -DC --defined-only "$library" | awk '{ $1 = ""; $2 = ""; print }' |
+    grep -vE '^ *(delos::api::|(vtable|typeinfo|typeinfo name|guard variable|VTT|construction vtable) for (delos::api::|std::|__gnu_cxx::)|(non-virtual |virtual )?thunk to delos::api::|std::|__gnu_cxx::|_init|_fini|void std::|bool std::|operator|char|int|long|unsigned|double|decltype)' | head -5 || true)
+  if [[ -n $strangers ]]; then
+    echo "symbols that should be hidden: $strangers" >&2
+    exit 1
+  fi
+fi
+echo "install: headers, package and library serve a consumer"
