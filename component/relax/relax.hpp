@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Relaxation: springs, repair of defects, polish of the worst triangles.
+// Relaxation: springs, then repair and polish of the worst triangles.
 #include <cstdint>
 
 #include "core/progress.hpp"
@@ -11,13 +11,14 @@
 namespace delos {
 
 struct RelaxOptions {
-  /// Rounds of spring relaxation (Engwirda 2015, Eq. 2) between flips.
+  /// Rounds of spring relaxation (Engwirda 2015, Eq. 2).
   int spring_rounds = 10;
-  /// Rounds of repair and polish at most; stops when every triangle meets the targets.
-  int polish_rounds = 40;
-  /// Angle (degrees) that polishing tries to bring every triangle below.
-  double max_angle_deg = 82.0;
-  /// Degree defects (vertices of degree <= 4 or >= 8) are removed.
+  /// Rounds of polish at most; they stop when every triangle meets the target.
+  int polish_rounds = 24;
+  /// Score that polish brings every triangle to where it can: area-length quality, and sides
+  /// between 0.71 h and 1.41 h at 0.92 (see triangle_score() in relax/patch.hpp).
+  double target_quality = 0.92;
+  /// Whether polish may remove and insert vertices.
   bool repair = true;
 };
 
@@ -27,7 +28,7 @@ struct RelaxReport {
   std::int64_t n_flips = 0;
   std::int64_t n_removed = 0;
   std::int64_t n_inserted = 0;
-  std::int64_t n_obtuse = 0;  ///< triangles with an angle >= 90 degrees at the end
+  std::int64_t n_below_target = 0;  ///< triangles that polish left below the target
 };
 
 /// Improves the mesh in place; it stays a valid Delaunay triangulation of the surface. The same

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The two bounds that every triangle meets when refinement ends.
+#include "refine/refine.hpp"
+
+namespace delos {
+
+struct BoundViolations {
+  std::int64_t n_over_size = 0;
+  std::int64_t n_over_radius_edge = 0;
+};
+
+/// Inserts ball centres (Chew 1993; Engwirda 2015, section 2.2) until every triangle meets
+/// radius-edge <= options.radius_edge and size <= options.size_ratio * spacing, or a fixed number
+/// of rounds has passed. Returns what is left (nothing on an admissible spacing) and counts the
+/// insertions.
+BoundViolations enforce_bounds(Context& context, const Ellipsoid& surface,
+                               const SpacingField& spacing, const RefineOptions& options,
+                               Mesh& mesh, std::int64_t& n_inserted);
+
+}  // namespace delos

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refine/refine.hpp"
+
+#include "refine/assemble.hpp"
+#include "refine/bounds.hpp"
+#include "refine/front.hpp"
+#include "refine/skeleton.hpp"
+#include "refine/tiles.hpp"
+#include "triangulation/flip.hpp"
+
+namespace delos {
+namespace {
+
+constexpr double kMaxVertices = 7e8;        // 2 n - 4 triangles must fit 32-bit ids, with room
+constexpr std::int64_t kTilesPerTask = 1;   // a tile takes some milliseconds
+
+void check_options(const RefineOptions& options) {
+  DELOS_CHECK(options.radius_edge >= 1.0, ErrorKind::config, "refine.radius_edge = ",
+              options.radius_edge, ": must be >= 1, below that refinement need not end.");
+  DELOS_CHECK(options.size_ratio > 1.0, ErrorKind::config, "refine.size_ratio = ",
+              options.size_ratio, ": must be > 1 (4/3 is the default).");
+  DELOS_CHECK(options.tile_vertices >= 500.0, ErrorKind::config, "refine.tile_vertices = ",
+              options.tile_vertices, ": must be >= 500 (12000 is the default).");
+}
+
+std::vector<TileMesh> refine_tiles(Context& context, const FrontInput& input) {
+  const std::size_t n_tiles = input.skeleton.tile_triangles.size();
+  std::vector<TileMesh> tiles(n_tiles);
+  std::vector<FrontWorkspace> scratch(static_cast<std::size_t>(context.exec.n_threads()));
+  parallel::for_index(
+      context.exec, static_cast<std::int64_t>(n_tiles), kTilesPerTask, [&](std::int64_t tile) {
+        context.monitor.check_cancelled();
+        const auto t = static_cast<std::size_t>(tile);
+        tiles[t] = refine_tile(input, t,
+                               scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
+        context.monitor.advance(static_cast<std::int64_t>(tiles[t].inserted.size()));
+      });
+  return tiles;
+}
+
+}  // namespace
+
+Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+            const RefineOptions& options, RefineReport& report) {
+  check_options(options);
+  const Tiling tiling =
+      make_tiles(context.exec, surface, spacing, options.tile_vertices, kMaxVertices);
+  const Phase phase(context.monitor, "refine", static_cast<std::int64_t>(tiling.expected_vertices));
+  Skeleton skeleton = make_skeleton(context, surface, spacing, tiling);
+  report.n_tiles = static_cast<std::int64_t>(tiling.tiles.size());
+  report.n_skeleton_vertices = skeleton.mesh.n_vertices();
+  context.monitor.advance(report.n_skeleton_vertices);
+
+  const std::vector<Index> half_segment = half_segment_of_sides(skeleton);
+  std::vector<TileMesh> tiles =
+      refine_tiles(context, {surface, spacing, options, skeleton, half_segment});
+  std::vector<Index> side_triangles;
+  Mesh mesh = assemble(context.exec, skeleton, tiles, side_triangles);
+  // On the sphere only the tiles' sides may be non-Delaunay; on an ellipsoid the hull predicate
+  // of the tile kernel differs a little from the surface Delaunay triangulation everywhere.
+  report.n_flips = surface.is_sphere() ? restore_delaunay(mesh, surface, side_triangles)
+                                       : restore_delaunay_everywhere(context.exec, mesh, surface);
+  std::int64_t n_enforced = 0;
+  const BoundViolations left = enforce_bounds(context, surface, spacing, options, mesh, n_enforced);
+  report.n_inserted = mesh.n_vertices() - report.n_skeleton_vertices;
+  report.n_over_size = left.n_over_size;
+  report.n_over_radius_edge = left.n_over_radius_edge;
+  return mesh;
+}
+
+}  // namespace delos

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "refine/work_mesh.hpp"
+
+namespace delos {
+void WorkMesh::cache_plane(WorkTriangle& tri) const {
+  const Vertex& a = vertex(tri.vertex[0]);
+  const Vertex& b = vertex(tri.vertex[1]);
+  const Vertex& c = vertex(tri.vertex[2]);
+  const double bx = b.x - a.x, by = b.y - a.y, bz = b.z - a.z;
+  const double cx = c.x - a.x, cy = c.y - a.y, cz = c.z - a.z;
+  const double nx = by * cz - bz * cy, ny = bz * cx - bx * cz, nz = bx * cy - by * cx;
+  const double inverse = 1.0 / (nx * a.x + ny * a.y + nz * a.z);
+  tri.plane = {nx * inverse, ny * inverse, nz * inverse};
+  const double square = bx * bx + by * by + bz * bz + cx * cx + cy * cy + cz * cz;
+  tri.bound = plane_bound(tri.plane[0], tri.plane[1], tri.plane[2], square * inverse);
+}
+
+bool WorkMesh::conflicts_exactly(const WorkTriangle& tri, const Vec3& p) const {
+  const auto site = [&](std::size_t k) {
+    return predicates::Site{vertex(tri.vertex[k]).position(), tri.vertex[k]};
+  };
+  // The new vertex gets the next id, higher than all others, so ties are decided as they will be
+  // once it is part of the mesh.
+  return predicates::in_circle_exact(site(0), site(1), site(2),
+                                     {p, static_cast<Index>(vertices.size())});
+}
+
+bool WorkMesh::find_cavity(Index seed, const Vec3& p, Cavity& cavity) const {
+  cavity.triangles.assign(1, seed);
+  cavity.start.clear();
+  cavity.link.clear();
+  // Depth-first over sides in cyclic order: what is popped is the border, counter-clockwise.
+  stack_.assign({4 * seed + 1, 4 * seed + 0, 4 * seed + 2});
+  while (!stack_.empty()) {
+    const Index code = stack_.back();
+    stack_.pop_back();
+    const WorkTriangle& inner = at(triangle_of(code));
+    const Index link = inner.link[side_of(code)];
+    if (link >= 0 && conflicts(at(triangle_of(link)), p)) {
+      const Index base = 4 * triangle_of(link);
+      const int entry = static_cast<int>(side_of(link));
+      cavity.triangles.push_back(triangle_of(link));
+      stack_.push_back(base + previous_corner(entry));
+      stack_.push_back(base + next_corner(entry));
+    } else {
+      cavity.start.push_back(inner.vertex[static_cast<std::size_t>(
+          next_corner(static_cast<int>(side_of(code))))]);
+      cavity.link.push_back(link);
+    }
+  }
+  cavity.start.push_back(cavity.start.front());
+  return cavity.size() == cavity.triangles.size() + 2;
+}
+
+void WorkMesh::fill_cavity(Cavity& cavity, Index new_vertex) {
+  const std::size_t n = cavity.size();
+  for (int extra = 0; extra < 2; ++extra) {
+    cavity.triangles.push_back(static_cast<Index>(triangles.size()));
+    triangles.push_back({});
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const Index id = cavity.triangles[i];
+    const Index next = cavity.triangles[i + 1 < n ? i + 1 : 0];
+    const Index previous = cavity.triangles[i > 0 ? i - 1 : n - 1];
+    WorkTriangle& tri = at(id);
+    tri.vertex = {new_vertex, cavity.start[i], cavity.start[i + 1]};
+    tri.link = {cavity.link[i], 4 * next + 2, 4 * previous + 1};
+    tri.stamp = (tri.stamp | 1U) + 1U;
+    if (cavity.link[i] >= 0) {
+      at(triangle_of(cavity.link[i])).link[side_of(cavity.link[i])] = 4 * id;
+    } else {
+      border_links[static_cast<std::size_t>(~cavity.link[i])] = 4 * id;
+    }
+  }
+}
+
+}  // namespace delos

@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The triangulation inside one tile while it is refined: cache-hot, private, bounded by
+// constraint sides that no cavity crosses. Insertion is Bowyer-Watson with the cavity's border
+// in cyclic order (Bowyer 1981, Watson 1981).
+#include <cmath>
+#include <vector>
+
+#include "core/error.hpp"
+#include "geometry/predicates.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// One cache line. The plane through the corners is cached as the vector u with u.p = 1 on it, so
+/// that a point p is inside the circumcircle iff u.p > 1: three products instead of a determinant.
+struct alignas(64) WorkTriangle {
+  std::array<double, 3> plane;
+  double bound;                 ///< of the rounding error of u.p - 1
+  std::array<Index, 3> vertex;  ///< local ids, counter-clockwise
+  std::array<Index, 3> link;    ///< across side k: 4 * triangle + its side, or ~half_segment
+  std::uint32_t stamp;          ///< bit 0: breaks a bound; the rest grows when the slot is reused
+};
+
+/// Rounding bound of u.p - 1 for |p| <= 1. With e = 2^-53, a relative error of a few e in each
+/// component of u costs a few e (|u_x| + |u_y| + |u_z|); the error of the normal's direction, a few
+/// e |B| |C| before division by d = n.a, acts over |p - a| <= 2. Both are taken generously: a wider
+/// band only sends more tests to the exact predicate. squares_over_d = (|B|^2 + |C|^2) / d.
+inline double plane_bound(double ux, double uy, double uz, double squares_over_d) {
+  constexpr double kUnitRoundoff = 0x1p-53;
+  return kUnitRoundoff * (16.0 * (std::abs(ux) + std::abs(uy) + std::abs(uz)) +
+                          8.0 * std::abs(squares_over_d));
+}
+
+inline constexpr Index triangle_of(Index link) { return link >> 2; }
+inline constexpr std::size_t side_of(Index link) { return static_cast<std::size_t>(link & 3); }
+
+/// The cavity that a new vertex makes, or the star that fills it: border edge i runs from
+/// start[i] to start[i + 1] (start[n] = start[0]) and has link[i] behind it.
+struct Cavity {
+  std::vector<Index> triangles;
+  std::vector<Index> start;
+  std::vector<Index> link;
+  std::size_t size() const { return link.size(); }
+};
+
+class WorkMesh {
+ public:
+  std::vector<Vertex> vertices;
+  std::vector<WorkTriangle> triangles;
+  /// Local triangle at a half-segment of this tile, kept up to date: (link code) by local slot.
+  std::vector<Index> border_links;
+
+  WorkTriangle& at(Index tri) { return triangles[static_cast<std::size_t>(tri)]; }
+  const WorkTriangle& at(Index tri) const { return triangles[static_cast<std::size_t>(tri)]; }
+  const Vertex& vertex(Index v) const { return vertices[static_cast<std::size_t>(v)]; }
+
+  /// Whether p, to become the next vertex, is inside the circumcircle of `tri`.
+  bool conflicts(const WorkTriangle& tri, const Vec3& p) const {
+    const double s =
+        tri.plane[0] * p.x() + tri.plane[1] * p.y() + tri.plane[2] * p.z() - 1.0;
+    if (s > tri.bound) return true;
+    if (s < -tri.bound) return false;
+    return conflicts_exactly(tri, p);
+  }
+
+  /// Finds the cavity of p from a triangle that conflicts with it. False when the border is not
+  /// one simple loop (p too near to a vertex for the arithmetic).
+  bool find_cavity(Index seed, const Vec3& p, Cavity& cavity) const;
+
+  /// Fills the cavity with the star of the new vertex (already appended to `vertices`). Star
+  /// triangle i is cavity.triangles[i], with border edge i opposite to the new vertex (corner 0).
+  void fill_cavity(Cavity& cavity, Index new_vertex);
+
+  /// Recomputes the cached plane of a triangle from its corners.
+  void cache_plane(WorkTriangle& tri) const;
+
+ private:
+  bool conflicts_exactly(const WorkTriangle& tri, const Vec3& p) const;
+  mutable std::vector<Index> stack_;
+};
+
+}  // namespace delos

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Moves the free vertices of a patch so that its worst triangle gets better (worst element first:
+// Freitag & Ollivier-Gooch 1997; Engwirda 2017, GMD 10, 2117, section 4).
+#include "geometry/ellipsoid.hpp"
+#include "relax/patch.hpp"
+#include "sizing/spacing.hpp"
+
+namespace delos {
+
+struct ClimbOptions {
+  double target = 0.92;  ///< score above which a star is left alone
+  int sweeps = 12;       ///< over all free vertices, at most
+};
+
+/// A vertex moves only where the worst score of its star rises. Connectivity stays.
+void hill_climb(const Ellipsoid& surface, const SpacingField& spacing, const ClimbOptions& options,
+                Patch& patch);
+
+/// Spring sweeps over the free vertices, one after the other (Gauss-Seidel). A move that would
+/// turn a triangle over is not made.
+void relax_patch(const Ellipsoid& surface, const SpacingField& spacing, int sweeps, Patch& patch);
+
+}  // namespace delos

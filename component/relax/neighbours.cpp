@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/neighbours.hpp"
+
+#include <algorithm>
+
+namespace delos {
+namespace {
+
+constexpr std::int64_t kRowGrain = 8192;  // vertices a task: about half a millisecond
+
+using Overflow = NeighbourRows::Overflow;
+
+// Walks around the vertex; returns how many neighbours there are.
+std::size_t fill_row(const Mesh& mesh, Index vertex, Index first,
+                     std::array<Index, NeighbourRows::kWidth>& row, std::vector<Index>* beyond) {
+  row.fill(vertex);
+  std::size_t n = 0;
+  Index tri = first;
+  do {
+    const Triangle& t = mesh.triangle(tri);
+    const int k = next_corner(corner_at(t, vertex));
+    const Index neighbour = t.vertex[static_cast<std::size_t>(k)];
+    if (n < NeighbourRows::kWidth) {
+      row[n] = neighbour;
+    } else if (beyond != nullptr) {
+      beyond->push_back(neighbour);
+    }
+    ++n;
+    tri = t.neighbour[static_cast<std::size_t>(k)];
+  } while (tri != first);
+  return n;
+}
+
+}  // namespace
+
+NeighbourRows::NeighbourRows(parallel::Executor& exec, const Mesh& mesh)
+    : rows_(mesh.vertices.size()) {
+  const std::vector<Index> at_vertex = triangle_at_vertex(mesh);
+  overflow_ = parallel::reduce(
+      exec, mesh.n_vertices(), kRowGrain, std::vector<Overflow>{},
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Overflow> found;
+        for (std::int64_t i = begin; i < end; ++i) {
+          const auto v = static_cast<std::size_t>(i);
+          const auto vertex = static_cast<Index>(i);
+          if (fill_row(mesh, vertex, at_vertex[v], rows_[v], nullptr) > kWidth) {
+            found.push_back({vertex, {}});
+            fill_row(mesh, vertex, at_vertex[v], rows_[v], &found.back().neighbours);
+          }
+        }
+        return found;
+      },
+      [](std::vector<Overflow> all, std::vector<Overflow> more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+      });
+}
+
+const Overflow* NeighbourRows::overflow_of(Index vertex) const {
+  const auto found =
+      std::lower_bound(overflow_.begin(), overflow_.end(), vertex,
+                       [](const Overflow& entry, Index id) { return entry.vertex < id; });
+  return found != overflow_.end() && found->vertex == vertex ? &*found : nullptr;
+}
+
+}  // namespace delos

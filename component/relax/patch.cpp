@@ -1,0 +1,395 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/patch.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/error.hpp"
+#include "geometry/predicates.hpp"
+
+namespace delos {
+namespace {
+
+const double kAreaLength = 4.0 / std::sqrt(3.0);  // 4 sqrt(3) / 3, with the mean of the squares
+constexpr double kShortSide = 1.30;  // 0.71 h scores 0.92
+constexpr double kLongSide = 1.30;   // 1.41 h scores 0.92
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+// The triangles around the free vertices, each once, in the order of first sight.
+std::vector<Index> triangles_around(const Mesh& mesh, const TriangleAtVertex& at_vertex,
+                                    const std::vector<Index>& free_vertices) {
+  std::vector<Index> found;
+  for (const Index v : free_vertices) {
+    Index tri = at_vertex[at(v)];
+    do {
+      found.push_back(tri);
+      const int k = corner_at(mesh.triangle(tri), v);
+      tri = mesh.triangle(tri).neighbour[at(next_corner(k))];
+    } while (tri != at_vertex[at(v)]);
+  }
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+Index local_id(const std::vector<Index>& sorted, Index global) {
+  const auto found = std::lower_bound(sorted.begin(), sorted.end(), global);
+  return found != sorted.end() && *found == global ? static_cast<Index>(found - sorted.begin())
+                                                   : kNone;
+}
+
+}  // namespace
+
+double area_length(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a;
+  const Vec3 normal = ab.cross(ac);
+  const double area = 0.5 * std::sqrt(normal.squaredNorm());
+  const double mean_square = (ab.squaredNorm() + ac.squaredNorm() + (c - b).squaredNorm()) / 3.0;
+  return (normal.dot(a) > 0.0 ? kAreaLength : -kAreaLength) * area / mean_square;
+}
+
+double triangle_score(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const Vec3 pa = a.position(), pb = b.position(), pc = c.position();
+  const auto relative_square = [](const Vec3& edge, double h) {
+    return edge.squaredNorm() / (0.25 * h * h);
+  };
+  const double ab = relative_square(pb - pa, a.spacing + b.spacing);
+  const double bc = relative_square(pc - pb, b.spacing + c.spacing);
+  const double ca = relative_square(pa - pc, c.spacing + a.spacing);
+  return std::min({area_length(pa, pb, pc), kShortSide * std::sqrt(std::min({ab, bc, ca})),
+                   kLongSide / std::sqrt(std::max({ab, bc, ca}))});
+}
+
+std::pair<double, Index> Patch::worst() const {
+  std::pair<double, Index> least{score(0), 0};
+  for (Index t = 1; t < n_triangles(); ++t) {
+    const double q = score(t);
+    if (q < least.first) least = {q, t};
+  }
+  return least;
+}
+
+ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex,
+                             const std::vector<Index>& free_vertices) {
+  ExtractedPatch out;
+  out.origin.triangles = triangles_around(mesh, at_vertex, free_vertices);
+  std::vector<Index> border;
+  for (const Index tri : out.origin.triangles) {
+    for (const Index v : mesh.triangle(tri).vertex) {
+      if (local_id(free_vertices, v) == kNone) border.push_back(v);
+    }
+  }
+  std::sort(border.begin(), border.end());
+  border.erase(std::unique(border.begin(), border.end()), border.end());
+  out.origin.vertices = free_vertices;
+  out.origin.vertices.insert(out.origin.vertices.end(), border.begin(), border.end());
+  out.patch.n_free = static_cast<Index>(free_vertices.size());
+  for (const Index v : out.origin.vertices) out.patch.vertices.push_back(mesh.vertices[at(v)]);
+  for (const Index tri : out.origin.triangles) {
+    const Triangle& source = mesh.triangle(tri);
+    Triangle t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index free_id = local_id(free_vertices, source.vertex[k]);
+      t.vertex[k] = free_id != kNone ? free_id : out.patch.n_free + local_id(border, source.vertex[k]);
+      t.neighbour[k] = local_id(out.origin.triangles, source.neighbour[k]);
+      if (t.neighbour[k] == kNone) {
+        t.neighbour[k] = ~static_cast<Index>(out.origin.border.size());
+        out.origin.border.push_back(
+            {source.neighbour[k], side_towards(mesh.triangle(source.neighbour[k]), tri)});
+      }
+    }
+    out.patch.triangles.push_back(t);
+  }
+  return out;
+}
+
+namespace patch {
+namespace {
+
+void set_neighbour(Patch& patch, Index tri, Index old_neighbour, Index new_neighbour) {
+  if (tri < 0) return;
+  patch.triangle(tri).neighbour[at(side_towards(patch.triangle(tri), old_neighbour))] =
+      new_neighbour;
+}
+
+bool wants_flip(const Patch& patch, Index tri, int side) {
+  const Triangle& t = patch.triangle(tri);
+  const Index other = t.neighbour[at(side)];
+  if (other < 0) return false;
+  const Triangle& o = patch.triangle(other);
+  const auto p = [&](Index v) { return patch.vertex(v).position(); };
+  return predicates::prefers_flip(p(t.vertex[at(next_corner(side))]),
+                                  p(t.vertex[at(previous_corner(side))]), p(t.vertex[at(side)]),
+                                  p(o.vertex[at(side_towards(o, tri))]));
+}
+
+// One star, counter-clockwise from a given triangle; the vertex is free, so it closes.
+std::vector<Index> star_of(const Patch& patch, Index vertex, Index first) {
+  std::vector<Index> star;
+  Index tri = first;
+  do {
+    star.push_back(tri);
+    tri = patch.triangle(tri).neighbour[at(next_corner(corner_at(patch.triangle(tri), vertex)))];
+  } while (tri != first);
+  return star;
+}
+
+Index any_triangle_at(const Patch& patch, Index vertex) {
+  for (Index t = 0; t < patch.n_triangles(); ++t) {
+    if (corner_at(patch.triangle(t), vertex) >= 0) return t;
+  }
+  return kNone;
+}
+
+// Flips a side at `vertex` whose quadrilateral is convex, the one that leaves the best triangle
+// behind; false when there is none.
+bool flip_one_off(Patch& patch, Index vertex, Index first) {
+  double best = 0.0;
+  std::pair<Index, int> chosen{kNone, 0};
+  for (const Index tri : star_of(patch, vertex, first)) {
+    const int k = corner_at(patch.triangle(tri), vertex);
+    const int side = next_corner(k);  // runs from the far ring vertex back to `vertex`
+    const Index other = patch.triangle(tri).neighbour[at(side)];
+    const Triangle& t = patch.triangle(tri);
+    const Triangle& o = patch.triangle(other);
+    const Vec3 before = patch.vertex(t.vertex[at(next_corner(k))]).position();
+    const Vec3 middle = patch.vertex(t.vertex[at(previous_corner(k))]).position();
+    const Vec3 after = patch.vertex(o.vertex[at(side_towards(o, tri))]).position();
+    if (area_length(patch.vertex(vertex).position(), before, after) <= 0.0) continue;
+    const double left_behind = area_length(before, middle, after);
+    if (left_behind > best) {
+      best = left_behind;
+      chosen = {tri, side};
+    }
+  }
+  if (chosen.first == kNone) return false;
+  flip(patch, chosen.first, chosen.second);
+  return true;
+}
+
+// Moves triangle `from` into the slot `to`.
+void move_triangle(Patch& patch, Index from, Index to) {
+  if (from == to) return;
+  patch.triangle(to) = patch.triangle(from);
+  for (const Index n : patch.triangle(to).neighbour) set_neighbour(patch, n, from, to);
+}
+
+// Replaces the three triangles around a vertex of degree three by one.
+void merge_three(Patch& patch, Index vertex, Index first) {
+  const std::vector<Index> star = star_of(patch, vertex, first);
+  Triangle merged{};
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Triangle& t = patch.triangle(star[i]);
+    const int k = corner_at(t, vertex);
+    merged.vertex[i] = t.vertex[at(next_corner(k))];
+    merged.neighbour[(i + 2) % 3] = t.neighbour[at(k)];
+  }
+  patch.triangle(star[0]) = merged;
+  for (std::size_t i = 1; i < 3; ++i) {
+    const Index outer = merged.neighbour[(i + 2) % 3];
+    set_neighbour(patch, outer, star[i], star[0]);
+  }
+  Index a = star[1], b = star[2];
+  if (a < b) std::swap(a, b);  // the higher first, so that the lower stays valid
+  for (const Index hole : {a, b}) {
+    move_triangle(patch, patch.n_triangles() - 1, hole);
+    patch.triangles.pop_back();
+  }
+}
+
+// Gives the id of a free vertex that has no triangle left to the last free vertex, and the last
+// free id to the last vertex of all.
+void drop_vertex(Patch& patch, Index vertex) {
+  const Index last_free = patch.n_free - 1;
+  for (Triangle& t : patch.triangles) {
+    for (Index& v : t.vertex) {
+      if (v == last_free) {
+        v = vertex;
+      } else if (v > last_free) {
+        --v;
+      }
+    }
+  }
+  patch.vertices[at(vertex)] = patch.vertices[at(last_free)];
+  patch.vertices.erase(patch.vertices.begin() + last_free);
+  patch.n_free = last_free;
+}
+
+}  // namespace
+
+void flip(Patch& patch, Index tri, int side) {
+  Triangle& t = patch.triangle(tri);
+  const Index other = t.neighbour[at(side)];
+  Triangle& o = patch.triangle(other);
+  const int k = side_towards(o, tri);
+  const Index apex = t.vertex[at(side)], from = t.vertex[at(next_corner(side))];
+  const Index to = t.vertex[at(previous_corner(side))], far = o.vertex[at(k)];
+  const Index right = t.neighbour[at(next_corner(side))];       // across (to, apex)
+  const Index left = t.neighbour[at(previous_corner(side))];    // across (apex, from)
+  const Index far_left = o.neighbour[at(next_corner(k))];       // across (from, far)
+  const Index far_right = o.neighbour[at(previous_corner(k))];  // across (far, to)
+  t = {{apex, from, far}, {far_left, other, left}};
+  o = {{apex, far, to}, {far_right, right, tri}};
+  set_neighbour(patch, far_left, other, tri);
+  set_neighbour(patch, right, tri, other);
+}
+
+int restore_delaunay(Patch& patch) {
+  int n_flips = 0;
+  std::vector<Index> todo;
+  for (Index t = patch.n_triangles() - 1; t >= 0; --t) todo.push_back(t);
+  while (!todo.empty()) {
+    const Index tri = todo.back();
+    todo.pop_back();
+    for (int side = 0; side < 3; ++side) {
+      if (!wants_flip(patch, tri, side)) continue;
+      const Index other = patch.triangle(tri).neighbour[at(side)];
+      flip(patch, tri, side);
+      ++n_flips;
+      todo.push_back(other);
+      todo.push_back(tri);
+      break;
+    }
+  }
+  return n_flips;
+}
+
+bool remove_vertex(Patch& patch, Index vertex) {
+  if (patch.n_free < 2) return false;
+  Patch edited = patch;
+  for (;;) {
+    const Index first = any_triangle_at(edited, vertex);
+    const std::size_t degree = star_of(edited, vertex, first).size();
+    if (degree == 3) {
+      merge_three(edited, vertex, first);
+      break;
+    }
+    if (!flip_one_off(edited, vertex, first)) return false;
+  }
+  drop_vertex(edited, vertex);
+  patch = std::move(edited);
+  return true;
+}
+
+void insert_vertex(Patch& patch, Index tri, const Vertex& vertex) {
+  const Index id = patch.n_free++;
+  for (Triangle& t : patch.triangles) {
+    for (Index& v : t.vertex) {
+      if (v >= id) ++v;
+    }
+  }
+  patch.vertices.insert(patch.vertices.begin() + id, vertex);
+  const Triangle t = patch.triangle(tri);
+  const Index second = patch.n_triangles(), third = second + 1;
+  patch.triangle(tri) = {{id, t.vertex[1], t.vertex[2]}, {t.neighbour[0], second, third}};
+  patch.triangles.push_back({{id, t.vertex[2], t.vertex[0]}, {t.neighbour[1], third, tri}});
+  patch.triangles.push_back({{id, t.vertex[0], t.vertex[1]}, {t.neighbour[2], tri, second}});
+  set_neighbour(patch, t.neighbour[1], tri, second);
+  set_neighbour(patch, t.neighbour[2], tri, third);
+}
+
+Stars stars(const Patch& patch) {
+  Stars out;
+  out.offsets.assign(at(patch.n_free) + 1, 0);
+  for (const Triangle& t : patch.triangles) {
+    for (const Index v : t.vertex) {
+      if (v < patch.n_free) ++out.offsets[at(v) + 1];
+    }
+  }
+  for (std::size_t v = 1; v < out.offsets.size(); ++v) out.offsets[v] += out.offsets[v - 1];
+  out.triangles.resize(at(out.offsets.back()));
+  std::vector<Index> next(out.offsets.begin(), out.offsets.end() - 1);
+  for (Index t = 0; t < patch.n_triangles(); ++t) {
+    for (const Index v : patch.triangle(t).vertex) {
+      if (v < patch.n_free) out.triangles[at(next[at(v)]++)] = t;
+    }
+  }
+  return out;
+}
+
+}  // namespace patch
+
+void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch& mended,
+                  MeshEdits& edits) {
+  const Patch& patch = mended.patch;
+  const PatchOrigin& origin = mended.origin;
+  // Border vertices are the last ones on both sides; free vertices take the old free ids first.
+  const auto n_border = static_cast<Index>(patch.vertices.size()) - patch.n_free;
+  const auto n_free_before = static_cast<Index>(origin.vertices.size()) - n_border;
+  std::vector<Index> vertex_id;
+  for (Index v = 0; v < patch.n_free; ++v) {
+    if (v < n_free_before) {
+      vertex_id.push_back(origin.vertices[at(v)]);
+      mesh.vertices[at(vertex_id.back())] = patch.vertex(v);
+    } else {
+      vertex_id.push_back(mesh.n_vertices());
+      mesh.vertices.push_back(patch.vertex(v));
+      at_vertex.push_back(kNone);
+    }
+  }
+  for (Index v = patch.n_free; v < n_free_before; ++v) {
+    edits.dead_vertices.push_back(origin.vertices[at(v)]);
+  }
+  vertex_id.insert(vertex_id.end(), origin.vertices.end() - n_border, origin.vertices.end());
+
+  std::vector<Index> triangle_id = origin.triangles;
+  while (triangle_id.size() < patch.triangles.size()) {
+    triangle_id.push_back(mesh.n_triangles());
+    mesh.triangles.push_back({});
+  }
+  for (std::size_t t = patch.triangles.size(); t < triangle_id.size(); ++t) {
+    edits.dead_triangles.push_back(triangle_id[t]);
+  }
+  for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
+    Triangle& target = mesh.triangle(triangle_id[t]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      target.vertex[k] = vertex_id[at(patch.triangles[t].vertex[k])];
+      at_vertex[at(target.vertex[k])] = triangle_id[t];
+      const Index n = patch.triangles[t].neighbour[k];
+      if (n >= 0) {
+        target.neighbour[k] = triangle_id[at(n)];
+      } else {
+        const PatchOrigin::BorderSide& side = origin.border[at(~n)];
+        target.neighbour[k] = side.outside;
+        mesh.triangle(side.outside).neighbour[at(side.side)] = triangle_id[t];
+      }
+    }
+    edits.touched_triangles.push_back(triangle_id[t]);
+  }
+}
+
+void compact(Mesh& mesh, MeshEdits& edits) {
+  const auto survivors = [](std::size_t n, std::vector<Index>& dead) {
+    std::vector<Index> new_id(n);
+    for (const Index id : dead) new_id[at(id)] = kNone;
+    Index next = 0;
+    for (Index& id : new_id) id = id == kNone ? kNone : next++;
+    dead.clear();
+    return new_id;
+  };
+  const std::vector<Index> vertex_id = survivors(mesh.vertices.size(), edits.dead_vertices);
+  const std::vector<Index> triangle_id = survivors(mesh.triangles.size(), edits.dead_triangles);
+  for (std::size_t v = 0; v < vertex_id.size(); ++v) {
+    if (vertex_id[v] != kNone) mesh.vertices[at(vertex_id[v])] = mesh.vertices[v];
+  }
+  for (std::size_t t = 0; t < triangle_id.size(); ++t) {
+    if (triangle_id[t] == kNone) continue;
+    Triangle tri = mesh.triangles[t];
+    for (Index& v : tri.vertex) v = vertex_id[at(v)];
+    for (Index& n : tri.neighbour) n = triangle_id[at(n)];
+    mesh.triangles[at(triangle_id[t])] = tri;
+  }
+  const auto count = [](const std::vector<Index>& ids) {
+    return ids.size() - static_cast<std::size_t>(std::count(ids.begin(), ids.end(), kNone));
+  };
+  mesh.vertices.resize(count(vertex_id));
+  mesh.triangles.resize(count(triangle_id));
+  std::vector<Index> touched;
+  for (const Index t : edits.touched_triangles) {
+    if (triangle_id[at(t)] != kNone) touched.push_back(triangle_id[at(t)]);
+  }
+  edits.touched_triangles = std::move(touched);
+}
+
+}  // namespace delos

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A patch: the triangles around a few bad ones, copied into small private arrays, mended there and
+// written back. Patches of one round share no triangle, so they are mended in parallel and
+// committed in order.
+#include <utility>
+#include <vector>
+
+#include "geometry/ellipsoid.hpp"
+#include "sizing/spacing.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// Area-length quality a_f of a triangle (DESIGN section 6): 1 = equilateral, negative when
+/// clockwise seen from outside. Above sqrt(3)/2 = 0.866 a triangle has no angle of 90 degrees.
+double area_length(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// What repair and polish raise: the least of area_length, and of the shortest and the longest side
+/// over the spacing, scaled so that 0.92 stands for sides of 0.71 h and 1.41 h.
+double triangle_score(const Vertex& a, const Vertex& b, const Vertex& c);
+
+/// Ids are local: free vertices first, [0, n_free); the others lie on the border and stay.
+/// A side on the border has neighbour ~b, b its number in the order of extraction.
+struct Patch {
+  std::vector<Vertex> vertices;
+  std::vector<Triangle> triangles;
+  Index n_free = 0;
+
+  const Vertex& vertex(Index v) const { return vertices[static_cast<std::size_t>(v)]; }
+  Triangle& triangle(Index t) { return triangles[static_cast<std::size_t>(t)]; }
+  const Triangle& triangle(Index t) const { return triangles[static_cast<std::size_t>(t)]; }
+  Index n_triangles() const { return static_cast<Index>(triangles.size()); }
+  /// See triangle_score().
+  double score(Index t) const {
+    const auto& v = triangle(t).vertex;
+    return triangle_score(vertex(v[0]), vertex(v[1]), vertex(v[2]));
+  }
+  /// Least score of its triangles, and the triangle (the first if there are several).
+  std::pair<double, Index> worst() const;
+};
+
+/// Where a patch came from, for commit(): global ids by local id.
+struct PatchOrigin {
+  std::vector<Index> vertices;
+  std::vector<Index> triangles;
+  struct BorderSide {
+    Index outside;  ///< global triangle across
+    int side;       ///< its side that touches the patch
+  };
+  std::vector<BorderSide> border;
+};
+
+struct ExtractedPatch {
+  Patch patch;
+  PatchOrigin origin;
+};
+
+/// One triangle at each vertex, or kNone; scratch for extraction.
+using TriangleAtVertex = std::vector<Index>;
+
+/// The patch of all triangles around the given free vertices (global ids, ascending).
+ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex,
+                             const std::vector<Index>& free_vertices);
+
+/// Edits of a patch. They keep the border and every free vertex's star closed.
+namespace patch {
+
+/// Turns side k of a triangle into the other diagonal. The side is not on the border.
+void flip(Patch& patch, Index tri, int side);
+/// Lawson flips by the opposite-angle sum until no inner side wants one; how many.
+int restore_delaunay(Patch& patch);
+/// Takes out a free vertex; the last free vertex gets its id. False (and an unchanged patch) when
+/// its star can't be flipped down to three triangles.
+bool remove_vertex(Patch& patch, Index vertex);
+/// Puts a free vertex into a triangle (split in three).
+void insert_vertex(Patch& patch, Index tri, const Vertex& vertex);
+/// Triangles around each free vertex: row i is the star of vertex i.
+struct Stars {
+  std::vector<Index> offsets;
+  std::vector<Index> triangles;
+};
+Stars stars(const Patch& patch);
+
+}  // namespace patch
+
+/// What a round of commits leaves to do.
+struct MeshEdits {
+  std::vector<Index> dead_vertices;
+  std::vector<Index> dead_triangles;
+  std::vector<Index> touched_triangles;  ///< those written
+};
+/// Writes a patch back. Only patches of one round, which share no vertex, may be committed in a
+/// row. Free vertices that the patch gained get new ids at the end; ids that it gave up are listed
+/// in `edits`.
+void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch& mended,
+                  MeshEdits& edits);
+
+/// Takes the dead vertices and triangles out of the arrays; the survivors keep their order.
+void compact(Mesh& mesh, MeshEdits& edits);
+
+}  // namespace delos

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Polish: rounds of patches around the triangles below the target, until there are none.
+#include "relax/relax.hpp"
+
+namespace delos {
+
+/// Each round picks bad triangles in ascending order, gives each a patch unless a patch of this
+/// round already holds a vertex of it, mends the patches in parallel and commits them in order.
+/// Patches grow, and vertices may come and go, where the smaller means have failed.
+void polish(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+            const RelaxOptions& options, Mesh& mesh, RelaxReport& report);
+
+}  // namespace delos

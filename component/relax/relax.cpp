@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/relax.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "relax/neighbours.hpp"
+#include "relax/polish.hpp"
+#include "relax/springs.hpp"
+#include "triangulation/flip.hpp"
+
+namespace delos {
+namespace {
+
+// Flips are looked for after the rounds in which they happen: the first ones, then ever rarer.
+bool is_flip_round(int round, int last) { return round == 0 || round == 3 || round == last; }
+
+void check_options(const RelaxOptions& options) {
+  DELOS_CHECK(options.spring_rounds >= 0 && options.spring_rounds <= 100000, ErrorKind::config,
+              "relax.spring_rounds = ", options.spring_rounds, ": must be in 0..100000.");
+  DELOS_CHECK(options.polish_rounds >= 0 && options.polish_rounds <= 100000, ErrorKind::config,
+              "relax.polish_rounds = ", options.polish_rounds, ": must be in 0..100000.");
+  DELOS_CHECK(options.target_quality > 0.0 && options.target_quality < 1.0, ErrorKind::config,
+              "relax.target_quality = ", options.target_quality,
+              ": must be above 0 and below 1 (0.92 is the default).");
+}
+
+void relax_springs(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+                   const RelaxOptions& options, Mesh& mesh, RelaxReport& report) {
+  const Phase phase(context.monitor, "relax",
+                    static_cast<std::int64_t>(options.spring_rounds) * mesh.n_vertices());
+  std::vector<Vertex> moved(mesh.vertices.size());
+  NeighbourRows rows(context.exec, mesh);
+  for (int round = 0; round < options.spring_rounds; ++round) {
+    context.monitor.check_cancelled();
+    spring_round(context.exec, surface, spacing, rows, mesh.vertices, moved);
+    std::swap(mesh.vertices, moved);
+    ++report.spring_rounds;
+    if (is_flip_round(round, options.spring_rounds - 1)) {
+      const std::int64_t n_flips = restore_delaunay_everywhere(context.exec, mesh, surface);
+      report.n_flips += n_flips;
+      if (n_flips > 0) rows = NeighbourRows(context.exec, mesh);
+    }
+    context.monitor.advance(mesh.n_vertices());
+  }
+}
+
+}  // namespace
+
+RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+                  const RelaxOptions& options, Mesh& mesh) {
+  check_options(options);
+  RelaxReport report;
+  if (options.spring_rounds > 0) relax_springs(context, surface, spacing, options, mesh, report);
+  if (options.polish_rounds > 0) polish(context, surface, spacing, options, mesh, report);
+  return report;
+}
+
+}  // namespace delos

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/repair.hpp"
+
+#include <algorithm>
+#include <vector>
+
+#include "relax/hill_climb.hpp"
+
+namespace delos {
+namespace {
+
+constexpr double kLeastGain = 1e-3;     // of the worst score, for a mended patch to be taken
+constexpr int kSpringSweeps = 12;       // after a topological change: the patch finds a new balance
+constexpr int kClimbRounds = 3;         // hill climbing and flips in turn
+
+class Repairer {
+ public:
+  Repairer(const Ellipsoid& surface, const SpacingField& spacing, const RepairOptions& options)
+      : surface_(surface), spacing_(spacing), options_(options) {}
+
+  // Springs, flips, hill climbing; returns the worst score.
+  double settle(Patch& patch, int spring_sweeps) const {
+    if (spring_sweeps > 0) {
+      relax_patch(surface_, spacing_, spring_sweeps, patch);
+      patch::restore_delaunay(patch);
+    }
+    for (int round = 0; round < kClimbRounds; ++round) {
+      hill_climb(surface_, spacing_, {options_.target, 12}, patch);
+      if (patch::restore_delaunay(patch) == 0) break;
+    }
+    return patch.worst().first;
+  }
+
+  // Keeps `trial` in `best` when it is better; true once the target is met.
+  bool consider(Patch trial, std::pair<double, Patch>& best) const {
+    patch::restore_delaunay(trial);
+    const double score = settle(trial, kSpringSweeps);
+    if (score > best.first + kLeastGain) best = {score, std::move(trial)};
+    return best.first >= options_.target;
+  }
+
+  // One vertex less or more at the worst triangle, whichever leaves the best patch.
+  void try_topology(const Patch& patch, std::pair<double, Patch>& best) const {
+    const Triangle worst = patch.triangle(patch.worst().second);
+    for (const Index v : worst.vertex) {
+      Patch trial = patch;
+      if (v < patch.n_free && patch::remove_vertex(trial, v) && consider(std::move(trial), best)) {
+        return;
+      }
+    }
+    const Index tri = patch.worst().second;
+    const std::array<Vec3, 3> p = {patch.vertex(worst.vertex[0]).position(),
+                                   patch.vertex(worst.vertex[1]).position(),
+                                   patch.vertex(worst.vertex[2]).position()};
+    for (const Vec3& place : {Vec3(p[0] + p[1] + p[2]), Vec3(4.0 * (p[0] + p[1]) + p[2]),
+                              Vec3(4.0 * (p[1] + p[2]) + p[0]), Vec3(4.0 * (p[2] + p[0]) + p[1])}) {
+      const Vec3 q = surface_.project(place);
+      Patch trial = patch;
+      patch::insert_vertex(trial, tri, {q.x(), q.y(), q.z(), spacing_.at(q.x(), q.y(), q.z())});
+      if (consider(std::move(trial), best)) return;
+    }
+  }
+
+ private:
+  const Ellipsoid& surface_;
+  const SpacingField& spacing_;
+  const RepairOptions& options_;
+};
+
+}  // namespace
+
+bool repair_patch(const Ellipsoid& surface, const SpacingField& spacing,
+                  const RepairOptions& options, Patch& patch) {
+  const Repairer repairer(surface, spacing, options);
+  const double before = patch.worst().first;
+  std::pair<double, Patch> best{before, patch};
+  Patch moved = patch;
+  const double score = repairer.settle(moved, 0);
+  if (score > before + kLeastGain) best = {score, moved};
+  if (best.first < options.target && options.change_topology) repairer.try_topology(patch, best);
+  if (best.first <= before + kLeastGain) return false;
+  patch = std::move(best.second);
+  return true;
+}
+
+}  // namespace delos

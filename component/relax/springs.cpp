@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/springs.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+namespace delos {
+namespace {
+
+constexpr double kTimeStep = 0.27;       // of Eq. 2 with beta = 1; springs of six neighbours are
+                                         // stable below 1/3, the best of a scan
+constexpr double kLongestStep = 0.2;     // of the spacing
+constexpr double kNoLength = 1e-300;     // keeps the empty places of a row (length 0) finite
+constexpr std::int64_t kSpringGrain = 4096;  // vertices a task: about 0.2 ms
+
+constexpr std::size_t kWidth = NeighbourRows::kWidth;
+
+// Sum over a row of (1 - h_ij / l_ij) (x_j - x_i); places that hold the vertex itself add 0.
+Vec3 row_force(const std::vector<Vertex>& vertices, const Vertex& p,
+               const std::array<Index, kWidth>& row) {
+  alignas(64) double dx[kWidth], dy[kWidth], dz[kWidth], h[kWidth];
+  for (std::size_t j = 0; j < kWidth; ++j) {
+    const Vertex& q = vertices[static_cast<std::size_t>(row[j])];
+    dx[j] = q.x - p.x;
+    dy[j] = q.y - p.y;
+    dz[j] = q.z - p.z;
+    h[j] = 0.5 * (q.spacing + p.spacing);
+  }
+  for (std::size_t j = 0; j < kWidth; ++j) {
+    const double square = dx[j] * dx[j] + dy[j] * dy[j] + dz[j] * dz[j];
+    const double pull = 1.0 - h[j] / std::sqrt(square + kNoLength);
+    dx[j] *= pull;
+    dy[j] *= pull;
+    dz[j] *= pull;
+  }
+  const auto total = [](const double* d) {
+    return ((d[0] + d[1]) + (d[2] + d[3])) + ((d[4] + d[5]) + (d[6] + d[7]));
+  };
+  return {total(dx), total(dy), total(dz)};
+}
+
+Vec3 overflow_force(const std::vector<Vertex>& vertices, Index vertex,
+                    const NeighbourRows& neighbours) {
+  Vec3 force(0, 0, 0);
+  const NeighbourRows::Overflow* more = neighbours.overflow_of(vertex);
+  if (more == nullptr) return force;
+  for (std::size_t first = 0; first < more->neighbours.size(); first += kWidth) {
+    std::array<Index, kWidth> row;
+    row.fill(vertex);
+    const std::size_t n = std::min(kWidth, more->neighbours.size() - first);
+    std::copy_n(more->neighbours.begin() + static_cast<std::ptrdiff_t>(first), n, row.begin());
+    force += row_force(vertices, vertices[static_cast<std::size_t>(vertex)], row);
+  }
+  return force;
+}
+
+}  // namespace
+
+void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
+                  const NeighbourRows& rows, const std::vector<Vertex>& vertices,
+                  std::vector<Vertex>& moved) {
+  const bool has_overflow = !rows.overflow().empty();
+  const auto n = static_cast<std::int64_t>(vertices.size());
+  parallel::for_range(exec, n, kSpringGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const auto v = static_cast<std::size_t>(i);
+      const Vertex& p = vertices[v];
+      const auto& row = rows.row(static_cast<Index>(i));
+      Vec3 step = kTimeStep * row_force(vertices, p, row);
+      if (has_overflow && row[kWidth - 1] != static_cast<Index>(i)) {
+        step += kTimeStep * overflow_force(vertices, static_cast<Index>(i), rows);
+      }
+      const double length = std::sqrt(step.squaredNorm());
+      const double longest = kLongestStep * p.spacing;
+      if (length > longest) step *= longest / length;
+      const Vec3 q = surface.project(p.position() + step);
+      moved[v] = {q.x(), q.y(), q.z(), p.spacing};
+    }
+    spacing.evaluate(std::span(moved).subspan(static_cast<std::size_t>(begin),
+                                              static_cast<std::size_t>(end - begin)));
+  });
+}
+
+}  // namespace delos

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Spring relaxation (Persson & Strang 2004; Engwirda 2015, Eq. 2).
+#include "core/parallel.hpp"
+#include "geometry/ellipsoid.hpp"
+#include "relax/neighbours.hpp"
+#include "sizing/spacing.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// One round: x <- project(x + dt * sum_j (l_ij - h_ij) e_ij) for every vertex at once (Jacobi, so
+/// the order of evaluation can't matter), h_ij the mean of the two ends' spacings, the step limited
+/// to a fraction of h so that no triangle turns over. Spacings are looked up anew. Reads
+/// mesh.vertices, writes `moved` (same length).
+void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
+                  const NeighbourRows& rows, const std::vector<Vertex>& vertices,
+                  std::vector<Vertex>& moved);
+
+}  // namespace delos
