@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The recipe: from settings to a finished grid with its report.
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "core/progress.hpp"
+#include "dual/grid.hpp"
+#include "lifecycle/outputs.hpp"
+#include "lifecycle/settings.hpp"
+#include "metrics/report.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// One finished grid with all that is known about it.
+struct Product {
+  Settings settings;
+  Mesh mesh;
+  std::optional<Grid> grid;                    ///< the dual, when it was asked for
+  std::optional<LatLonField> spacing_table_m;  ///< when the settings write it
+  std::shared_ptr<const Raster> elevation_m;   ///< when the recipe used it
+  Report report;
+};
+
+struct GenerateScope {
+  bool with_dual = true;
+  /// Where files will go: checked before the long computation. Empty: no files.
+  std::string directory;
+};
+
+/// Phases: read, size, refine, relax, quality, dual. The grid depends on the settings and the input
+/// files only, to the last bit. Error(resource) with the estimated count and memory before
+/// anything large is allocated; Error(quality) with the worst element's id and place when a
+/// requirement is not met and `require.keep` is off.
+Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
+
+/// What goes into the product's files; refers to the product. `command` is for their history.
+OutputContent output_content(const Product& product, const std::string& command);
+
+/// Error(quality) that lists every requirement that is missed, with the worst element.
+void check_requirements(const RequireSettings& require, const Quality& quality);
+
+}  // namespace delos

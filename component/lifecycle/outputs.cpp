@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/outputs.hpp"
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+
+#include "core/error.hpp"
+#include "dual/build.hpp"
+#include "geometry/conformal.hpp"
+#include "io/atomic_file.hpp"
+#include "io/mpas.hpp"
+#include "io/provenance.hpp"
+#include "io/ugrid.hpp"
+#include "lifecycle/version.hpp"
+#include "triangulation/flip.hpp"
+
+namespace delos {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::int64_t now_s() {
+  return std::chrono::duration_cast<std::chrono::seconds>(
+             std::chrono::system_clock::now().time_since_epoch())
+      .count();
+}
+
+Provenance provenance_of(const OutputContent& content) {
+  const FileNotes& notes = content.notes;
+  Provenance out;
+  out.version = library_version();
+  out.config = content.settings.text;
+  out.digest = notes.digest;
+  for (const InputRecord& file : notes.inputs) out.inputs.push_back({file.path, file.sha256});
+  out.history = history_line(history_time(now_s()), notes.command);
+  out.certificate = {notes.well_centred, notes.min_relative_edge, notes.min_dual_ratio};
+  return out;
+}
+
+/// The grid on the sphere of equal area. The map keeps angles (or, on Earth, nearly), so that the
+/// same triangles are Delaunay there but for ties, which flips settle.
+Grid carry_to_sphere(Context& context, const OutputContent& content, Provenance& provenance) {
+  const Ellipsoid& surface = content.settings.surface;
+  const SphereMap map(surface);
+  const Ellipsoid sphere = map.sphere();
+  Mesh mesh = content.mesh;
+  constexpr std::int64_t kVerticesPerTask = 4096;  // some milliseconds
+  parallel::for_index(context.exec, mesh.n_vertices(), kVerticesPerTask, [&](std::int64_t i) {
+    Vertex& vertex = mesh.vertices[static_cast<std::size_t>(i)];
+    const Vec3 p = vertex.position();
+    const Vec3 image = map(p);
+    vertex = {image.x(), image.y(), image.z(), vertex.spacing * map.stretch(p)};
+  });
+  const std::int64_t n_flips = restore_delaunay_everywhere(context.exec, mesh, sphere);
+  const Vec3 radii_m = surface.scale_m() * surface.radii();
+  provenance.history +=
+      text("\ncarried from the ellipsoid with radii ", radii_m.x(), " ", radii_m.y(), " ",
+           radii_m.z(), " m to the sphere of equal area, ",
+           map.kind() == SphereMapKind::conformal ? "angles" : "longitudes and latitudes",
+           " kept; sides flipped: ", n_flips);
+  context.monitor.check_cancelled();
+  return build_grid(context, sphere, LatitudeKind::geocentric, mesh);
+}
+
+void write_mpas_file(Context& context, const OutputContent& content, const std::string& path) {
+  DELOS_ASSERT(content.grid != nullptr);
+  const OutputSettings& output = content.settings.output;
+  const MpasOptions options{output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
+                            output.unit_sphere};
+  Provenance provenance = provenance_of(content);
+  if (content.settings.surface.is_sphere()) {
+    write_mpas(path, *content.grid, provenance, options);
+  } else {
+    const Grid grid = carry_to_sphere(context, content, provenance);
+    write_mpas(path, grid, provenance, options);
+  }
+}
+
+UgridOptions ugrid_options(const OutputContent& content) {
+  // CDO's bounds double the file, and no such tool opens grids of this size.
+  constexpr Index kMaxVerticesWithBounds = 50'000'000;
+  return {content.settings.output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
+          content.mesh.n_vertices() <= kMaxVerticesWithBounds};
+}
+
+/// Folders made on the way to `directory`, removed again unless kept.
+class NewFolders {
+ public:
+  explicit NewFolders(const fs::path& directory) {
+    fs::path folder = fs::absolute(directory).lexically_normal();
+    std::error_code error;
+    for (; !folder.empty() && !fs::exists(folder, error); folder = folder.parent_path()) {
+      made_.push_back(folder);
+    }
+    fs::create_directories(directory, error);
+    DELOS_CHECK(!error, ErrorKind::output, "the folder ", directory.string(),
+                " can't be made: ", error.message(), ". Choose another directory.");
+  }
+  ~NewFolders() {
+    std::error_code ignored;
+    for (const fs::path& folder : made_) fs::remove(folder, ignored);
+  }
+  NewFolders(const NewFolders&) = delete;
+  NewFolders& operator=(const NewFolders&) = delete;
+  void keep() { made_.clear(); }
+
+ private:
+  std::vector<fs::path> made_;  // deepest first
+};
+
+/// The files of settings.output one after the other.
+class OutputWriter {
+ public:
+  OutputWriter(Context& context, const OutputContent& content, const fs::path& directory)
+      : context_(context), content_(content), directory_(directory) {}
+
+  void write_grids() {
+    const OutputSettings& output = content_.settings.output;
+    const std::int64_t n_cells = content_.mesh.n_vertices();
+    const std::uint64_t ugrid_bytes = ugrid_triangles_size_bytes(n_cells, ugrid_options(content_));
+    if (output.mpas) write_grid(FileKind::mpas, "mpas.nc", mpas_size_bytes(n_cells));
+    if (output.ugrid_triangles) {
+      write_grid(FileKind::ugrid_triangles, "ugrid_triangles.nc", ugrid_bytes);
+    }
+    if (output.ugrid_cells) write_grid(FileKind::ugrid_cells, "ugrid_cells.nc", ugrid_bytes);
+    if (output.graph) {
+      add("graph.info", [&](const std::string& path) { write_graph_info(path, *content_.grid); });
+    }
+  }
+
+  void write_notes() {
+    const OutputSettings& output = content_.settings.output;
+    if (output.spacing && content_.spacing_table_m != nullptr) {
+      add("spacing.nc", [&](const std::string& path) {
+        write_spacing(path, *content_.spacing_table_m, provenance_of(content_));
+      });
+    }
+    for (const std::string& picture : output.pictures) {
+      if (!content_.draw) break;
+      add(picture + ".png", [&](const std::string& path) { content_.draw(picture, path); });
+    }
+    if (output.report) {
+      add_text("report.json", content_.notes.report_json);
+      add_text("report.txt", content_.notes.report_text);
+    }
+  }
+
+  std::vector<std::string> commit() {
+    context_.monitor.check_cancelled();
+    files_.commit();
+    return paths_;
+  }
+
+ private:
+  void add(const std::string& kind, const std::function<void(const std::string&)>& write,
+           std::uint64_t bytes = 0) {
+    context_.monitor.check_cancelled();
+    const fs::path path = directory_ / text(content_.settings.output.name, ".", kind);
+    files_.add(path, bytes, write);
+    paths_.push_back(path.string());
+    context_.monitor.advance(1);
+  }
+  void add_text(const std::string& kind, const std::string& value) {
+    add(kind, [&](const std::string& path) { write_text_atomically(path, value); });
+  }
+  void write_grid(FileKind kind, const std::string& name, std::uint64_t bytes) {
+    add(
+        name, [&](const std::string& path) { write_grid_file(context_, content_, kind, path); },
+        bytes);
+  }
+
+  Context& context_;
+  const OutputContent& content_;
+  fs::path directory_;
+  OutputSet files_;
+  std::vector<std::string> paths_;
+};
+
+}  // namespace
+
+std::vector<std::string> write_outputs(Context& context, const OutputContent& content,
+                                       const std::string& directory) {
+  const OutputSettings& output = content.settings.output;
+  const std::int64_t n_files = output.mpas + output.ugrid_triangles + output.ugrid_cells +
+                               output.graph + output.spacing + 2 * output.report +
+                               static_cast<std::int64_t>(output.pictures.size());
+  const Phase phase(context.monitor, "write", n_files);
+  NewFolders folders(directory);
+  OutputWriter writer(context, content, directory);
+  writer.write_grids();
+  writer.write_notes();
+  std::vector<std::string> paths = writer.commit();
+  folders.keep();
+  return paths;
+}
+
+void write_grid_file(Context& context, const OutputContent& content, FileKind kind,
+                     const std::string& path) {
+  const Settings& settings = content.settings;
+  switch (kind) {
+    case FileKind::mpas:
+      write_mpas_file(context, content, path);
+      return;
+    case FileKind::ugrid_triangles:
+      write_ugrid_triangles(path, content.mesh, {settings.surface, settings.latitude},
+                            provenance_of(content), ugrid_options(content));
+      return;
+    case FileKind::ugrid_cells:
+      DELOS_ASSERT(content.grid != nullptr);
+      write_ugrid_cells(path, *content.grid, provenance_of(content), ugrid_options(content));
+      return;
+  }
+}
+
+}  // namespace delos

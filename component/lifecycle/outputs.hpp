@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The files of one run, all or none.
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "dual/grid.hpp"
+#include "lifecycle/inputs.hpp"
+#include "lifecycle/settings.hpp"
+#include "sizing/spacing.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// What the files say about the grid beside its arrays.
+struct FileNotes {
+  std::string digest;
+  std::vector<InputRecord> inputs;
+  std::string command;  ///< for the `history` attribute
+  double well_centred = 0.0, min_relative_edge = 0.0, min_dual_ratio = 0.0;
+  std::string report_text, report_json;
+};
+
+struct OutputContent {
+  const Settings& settings;
+  const Mesh& mesh;
+  const Grid* grid;                    ///< may be null when the settings need no dual
+  const LatLonField* spacing_table_m;  ///< may be null
+  FileNotes notes;
+  /// Writes a picture ("globe", "map", "histograms") to a path; null: no pictures.
+  std::function<void(const std::string& picture, const std::string& path)> draw;
+};
+
+/// Phase "write". Every file that settings.output names, into `directory` (made when it is not
+/// there), with all folders and files left as they were when anything fails. The paths.
+std::vector<std::string> write_outputs(Context& context, const OutputContent& content,
+                                       const std::string& directory);
+
+enum class FileKind { mpas, ugrid_triangles, ugrid_cells };
+
+/// One file. MPAS knows spheres only: a grid of an ellipsoid is carried to the sphere of equal area
+/// (geometry/conformal) first, and the file says so.
+void write_grid_file(Context& context, const OutputContent& content, FileKind kind,
+                     const std::string& path);
+
+}  // namespace delos

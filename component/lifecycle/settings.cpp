@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/settings.hpp"
+
+#include <algorithm>
+
+#include "io/data_files.hpp"
+#include "lifecycle/baselines.hpp"
+#include "lifecycle/settings_reader.hpp"
+#include "lifecycle/settings_sizing.hpp"
+
+namespace delos {
+namespace {
+
+constexpr char kDefaultRadius[] = "6371.22 km";  // of published MPAS meshes
+
+Vec3 read_lengths(MapReader& keys, const std::string& key, Bounds bounds) {
+  const std::vector<double> values = keys.quantities(key, Dimension::length, bounds, {3, 3});
+  return {values[0], values[1], values[2]};
+}
+
+void refuse(const MapReader& keys, const std::string& key, const std::string& shape) {
+  if (keys.has(key)) keys.fail(key, "does not go with shape: ", shape, ". Remove one of the two.");
+}
+
+void read_surface(MapReader keys, Settings& out) {
+  constexpr LatitudeKind kLatitudes[] = {LatitudeKind::geodetic, LatitudeKind::geocentric,
+                                         LatitudeKind::parametric};
+  const std::size_t shape = keys.choice("shape", {"sphere", "wgs84", "ellipsoid"}, "sphere");
+  const Vec3 centre_m =
+      keys.has("centre") ? read_lengths(keys, "centre", Bounds::any()) : Vec3(0.0, 0.0, 0.0);
+  if (shape == 0) {
+    out.shape = "sphere";
+    refuse(keys, "radii", out.shape);
+    const double radius_m =
+        keys.quantity("radius", Dimension::length, Bounds::positive(), kDefaultRadius);
+    out.surface = Ellipsoid(Vec3(radius_m, radius_m, radius_m), centre_m);
+  } else if (shape == 1) {
+    out.shape = "wgs84";
+    refuse(keys, "radii", out.shape);
+    refuse(keys, "radius", out.shape);
+    const Ellipsoid wgs84 = Ellipsoid::wgs84();
+    out.surface = Ellipsoid(wgs84.scale_m() * wgs84.radii(), centre_m);
+  } else {
+    out.shape = "ellipsoid";
+    refuse(keys, "radius", out.shape);
+    const Vec3 radii_m = read_lengths(keys, "radii", Bounds::positive());
+    // Flatter bodies have no triangulation that is well centred at usual spacings.
+    constexpr double kMaxAspect = 10.0;
+    if (radii_m.maxCoeff() > kMaxAspect * radii_m.minCoeff()) {
+      keys.fail("radii", "the largest is more than ", kMaxAspect, " times the smallest.");
+    }
+    out.surface = Ellipsoid(radii_m, centre_m);
+  }
+  out.latitude =
+      kLatitudes[keys.choice("latitude", {"geodetic", "geocentric", "parametric"}, "geodetic")];
+}
+
+/// Baselines have one spacing everywhere, from `subdivisions` or `spacing`.
+void read_baseline(MapReader& root, const char* generator, Settings& out) {
+  for (const char* const key : {"sizing", "bathymetry", "refine", "relax"}) {
+    if (root.has(key)) {
+      root.fail(key, "is not used by generator: ", generator,
+                ", which takes `subdivisions` or `spacing` only.");
+    }
+  }
+  if (root.has("subdivisions") == root.has("spacing")) {
+    root.fail("subdivisions", "give either subdivisions (e.g. 64) or spacing (e.g. 120 km) for ",
+              "generator: ", generator, ".");
+  }
+  constexpr std::int64_t kMaxSubdivisions = 8000;  // 10 n^2 + 2 stays within 32-bit ids
+  if (root.has("subdivisions")) {
+    out.subdivisions = root.integer("subdivisions", 1, kMaxSubdivisions);
+  } else {
+    const double spacing_m = root.quantity("spacing", Dimension::length, Bounds::positive());
+    out.subdivisions = baseline_subdivisions(out.generator, out.surface, spacing_m);
+  }
+  SourceSettings source;
+  source.source.source =
+      ConstantSource{baseline_spacing_m(out.generator, out.surface, out.subdivisions)};
+  source.source.name = text("generator: ", generator);
+  out.sizing.recipe.latitude = out.latitude;
+  out.sizing.sources = {source};
+}
+
+RefineOptions read_refine(MapReader keys) {
+  RefineOptions out;
+  const auto number = [&](const char* key, Bounds bounds, double fallback) {
+    return keys.quantity(key, Dimension::none, bounds, text(fallback).c_str());
+  };
+  // Below 1 (30 degrees) refinement is not known to end; see the refine layer.
+  out.radius_edge = number("radius_edge", Bounds::between(1.0, 10.0), out.radius_edge);
+  out.size_ratio = number("size_ratio", Bounds::between(1.0, 4.0), out.size_ratio);
+  out.tile_vertices = number("tile_vertices", Bounds::between(500.0, 1e7), out.tile_vertices);
+  return out;
+}
+
+RelaxOptions read_relax(MapReader keys) {
+  RelaxOptions out;
+  constexpr int kMaxRounds = 100'000;
+  const auto rounds = [&](const char* key, int fallback) {
+    return static_cast<int>(keys.integer(key, 0, kMaxRounds, text(fallback).c_str()));
+  };
+  out.spring_rounds = rounds("spring_rounds", out.spring_rounds);
+  out.polish_rounds = rounds("polish_rounds", out.polish_rounds);
+  // At 1 only equilateral triangles would do.
+  out.target_quality = keys.quantity("target_quality", Dimension::none, Bounds::between(0.5, 0.99),
+                                     text(out.target_quality).c_str());
+  out.repair = keys.boolean("repair", out.repair);
+  return out;
+}
+
+LonLat read_view(MapReader& keys) {
+  if (!keys.has("view")) return {0.0, 0.0};
+  const auto degrees =
+      keys.quantities("view", Dimension::angle, Bounds::between(-360.0, 360.0), {2, 2});
+  if (degrees[1] < -90.0 || degrees[1] > 90.0) {
+    keys.fail("view", "is [longitude, latitude]; ", degrees[1], " deg is no latitude.");
+  }
+  return {degrees[0] * kRadPerDeg, degrees[1] * kRadPerDeg};
+}
+
+OutputSettings read_output(MapReader keys) {
+  OutputSettings out;
+  out.directory = keys.string("directory", "out");
+  out.name = keys.string("name", "grid");
+  if (out.name.empty() || out.name.find('/') != std::string::npos) {
+    keys.fail("name", "'", out.name, "' is no file name; the folder goes to `directory`.");
+  }
+  const auto formats = keys.strings("formats", {"mpas", "ugrid_triangles", "ugrid_cells"},
+                                    {"mpas", "ugrid_triangles", "ugrid_cells"});
+  const auto wanted = [&](const char* format) {
+    return std::find(formats.begin(), formats.end(), format) != formats.end();
+  };
+  out.mpas = wanted("mpas");
+  out.ugrid_triangles = wanted("ugrid_triangles");
+  out.ugrid_cells = wanted("ugrid_cells");
+  out.graph = keys.boolean("graph", true);
+  out.report = keys.boolean("report", true);
+  out.spacing = keys.boolean("spacing", false);
+  out.pictures = keys.strings("pictures", {"globe", "map", "histograms"}, {});
+  out.view = read_view(keys);
+  out.unit_sphere = keys.boolean("unit_sphere", false);
+  out.compress = keys.boolean("compress", false);
+  return out;
+}
+
+RequireSettings read_require(MapReader keys) {
+  RequireSettings out;
+  out.well_centred = keys.boolean("well_centred", false);
+  out.min_relative_edge =
+      keys.optional_quantity("min_relative_edge", Dimension::none, Bounds::between(0.0, 1.0));
+  out.min_dual_ratio =
+      keys.optional_quantity("min_dual_ratio", Dimension::none, Bounds::between(0.0, 1.0));
+  out.max_angle_deg =
+      keys.optional_quantity("max_angle", Dimension::angle, Bounds::between(60.0, 180.0));
+  out.keep = keys.boolean("keep", false);
+  return out;
+}
+
+/// What the grid does not depend on leaves no trace in its files, so that they stay the same.
+std::string grid_text(ConfigNode effective) {
+  std::erase_if(effective.entries, [](const auto& entry) { return entry.first == "threads"; });
+  for (auto& [key, node] : effective.entries) {
+    if (key != "output") continue;
+    std::erase_if(node.entries, [](const auto& entry) { return entry.first == "directory"; });
+  }
+  return to_yaml(effective);
+}
+
+}  // namespace
+
+Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
+  Settings out;
+  out.folder = folder;
+  ConfigNode effective;
+  MapReader root(root_node, "", effective,
+                 {"title", "surface", "generator", "subdivisions", "spacing", "sizing",
+                  "bathymetry", "refine", "relax", "output", "require", "threads", "data_path"});
+  out.title = root.string("title", "");
+  read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
+  constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,
+                                       Generator::cubed_sphere};
+  out.generator =
+      kGenerators[root.choice("generator", {"frontal", "icosahedral", "cubed_sphere"}, "frontal")];
+  if (out.generator == Generator::frontal) {
+    for (const char* const key : {"subdivisions", "spacing"}) {
+      if (root.has(key)) {
+        root.fail(key, "belongs to the generators icosahedral and cubed_sphere. For a uniform ",
+                  "grid write sizing: {sources: [{type: constant, spacing: 60 km}]}.");
+      }
+    }
+    out.sizing = read_sizing(root, out.surface.scale_m(), out.latitude);
+    out.refine = read_refine(root.map("refine", {"radius_edge", "size_ratio", "tile_vertices"}));
+    out.relax = read_relax(
+        root.map("relax", {"spring_rounds", "polish_rounds", "target_quality", "repair"}));
+  } else {
+    read_baseline(root, out.generator == Generator::icosahedral ? "icosahedral" : "cubed_sphere",
+                  out);
+  }
+  out.output =
+      read_output(root.map("output", {"directory", "name", "formats", "graph", "report", "spacing",
+                                      "pictures", "view", "unit_sphere", "compress"}));
+  out.require = read_require(root.map(
+      "require", {"well_centred", "min_relative_edge", "min_dual_ratio", "max_angle", "keep"}));
+  constexpr std::int64_t kMaxThreads = 4096;
+  out.threads = static_cast<int>(root.integer("threads", 0, kMaxThreads, "0"));
+  out.data_path = root.strings("data_path", {}, {kDefaultDataFolder});
+  out.text = grid_text(std::move(effective));
+  return out;
+}
+
+}  // namespace delos

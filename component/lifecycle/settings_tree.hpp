@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The configuration as a tree of texts that knows where each came from; no meaning yet.
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace delos {
+
+struct ConfigNode {
+  enum class Kind { empty, scalar, list, map };
+
+  Kind kind = Kind::empty;
+  std::string where;   ///< "file:line", or "override"
+  std::string scalar;  ///< text of a scalar
+  bool quoted = false;
+  /// Of a map in the order of the file; the keys of a list are empty.
+  std::vector<std::pair<std::string, ConfigNode>> entries;
+
+  /// nullptr when this is no map or has no such key.
+  const ConfigNode* find(std::string_view key) const;
+  /// Sets or replaces a key of a map; an empty node becomes a map.
+  ConfigNode& put(const std::string& key, ConfigNode value);
+
+  static ConfigNode text(std::string scalar, std::string where = {});
+};
+
+/// Error(config) that begins with "name:line" when the text is no YAML map or names a key twice.
+ConfigNode parse_config(const std::string& yaml, const std::string& name);
+
+/// Sets the value (YAML) of a key such as "sizing.sources.0.spacing"; parents that are not there
+/// are made, a list index may be the list's length at most.
+void override_config(ConfigNode& root, const std::string& key, const std::string& value);
+
+/// YAML that parse_config reads back as an equal tree (but for `where`).
+std::string to_yaml(const ConfigNode& root);
+
+}  // namespace delos
