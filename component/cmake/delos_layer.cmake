@@ -8,7 +8,8 @@ function(delos_target_options target)
   # The same bits from every compiler: no fused multiply-add unless the code asks for one.
   target_compile_options(${target} PRIVATE -Wall -Wextra -Wpedantic -ffp-contract=off -fno-math-errno
     -fno-trapping-math $<$<BOOL:${DELOS_WERROR}>:-Werror> $<$<BOOL:${DELOS_NATIVE}>:-march=native>)
-  target_compile_definitions(${target} PRIVATE
+  # Eigen's own vector code depends on the instruction set; three-vectors gain nothing from it.
+  target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY
     $<$<OR:$<CONFIG:Debug>,$<BOOL:${DELOS_ASSERTS}>>:DELOS_ENABLE_ASSERTS>)
   if(DELOS_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${DELOS_SANITIZE} -fno-sanitize-recover=all
