@@ -14,6 +14,9 @@ constexpr Colour kLand{0.80, 0.79, 0.76, 1.0};
 // Part of the land's grey over the colour of the cell.
 constexpr double kLandCover = 0.84;
 constexpr Colour kInk{0.05, 0.06, 0.10, 1.0};
+constexpr Colour kLightInk{0.95, 0.95, 1.0, 1.0};
+// Perceived brightness (Rec. 601 weights) below which lines are light.
+constexpr double kDark = 0.42;
 
 }  // namespace
 
@@ -52,19 +55,28 @@ Colour CellPainter::colour(const Vec3& p, Index& hint) const {
   return mix(own, {kLand.r * shade, kLand.g * shade, kLand.b * shade, 1.0}, kLandCover);
 }
 
-void Outlines::add(const Segment& segment, double cell_px) {
-  if (!is_visible(cell_px)) return;
-  const double strength = (cell_px - kOutlineFrom_px) / (kOutlineFull_px - kOutlineFrom_px);
-  const auto level = static_cast<std::size_t>(strength * static_cast<double>(kLevels));
-  levels_[std::min(level, kLevels - 1)].push_back(segment);
+bool CellPainter::is_dark(Index cell, const Vec3& p) const {
+  const Colour& own = cell_colours_[static_cast<std::size_t>(cell)];
+  if (0.299 * own.r + 0.587 * own.g + 0.114 * own.b >= kDark) return false;
+  if (land_ == nullptr) return true;
+  const LonLat where = grid_.surface.lon_lat(p, grid_.latitude);
+  return !land_->is_land(where.lon_rad * kDegPerRad, where.lat_rad * kDegPerRad);
+}
+
+void Outlines::add(const Segment& segment, const Cell& cell) {
+  if (!is_visible(cell.size_px)) return;
+  const double strength = (cell.size_px - kOutlineFrom_px) / (kOutlineFull_px - kOutlineFrom_px);
+  const auto level =
+      std::min(static_cast<std::size_t>(strength * static_cast<double>(kLevels)), kLevels - 1);
+  (cell.is_dark ? light_ : dark_)[level].push_back(segment);
 }
 
 void Outlines::draw(Canvas& canvas) const {
   for (std::size_t level = 0; level < kLevels; ++level) {
     const double strength = static_cast<double>(level + 1) / static_cast<double>(kLevels);
-    Colour ink = kInk;
-    ink.a = 0.08 + 0.42 * strength;
-    canvas.segments(levels_[level], {ink, 0.55 + 0.35 * strength});
+    const double opacity = 0.06 + 0.40 * strength, width = 0.55 + 0.35 * strength;
+    canvas.segments(dark_[level], {{kInk.r, kInk.g, kInk.b, opacity}, width});
+    canvas.segments(light_[level], {{kLightInk.r, kLightInk.g, kLightInk.b, 0.8 * opacity}, width});
   }
 }
 

@@ -23,6 +23,9 @@ class CellPainter {
   /// neighbours: a Voronoi cell holds what is nearest to it. `hint` becomes the cell of p; near
   /// points asked one after the other cost a few steps each.
   Colour colour(const Vec3& p, Index& hint) const;
+  /// Whether cell `cell`, or the land that covers point p of it, is so dark that lines on it must
+  /// be light.
+  bool is_dark(Index cell, const Vec3& p) const;
 
  private:
   const Grid& grid_;
@@ -33,19 +36,22 @@ class CellPainter {
 };
 
 /// Segments of cell outlines, sorted into a few opacities: the larger the cell on the picture, the
-/// clearer its outline; below kOutlineFrom_px there is none.
+/// clearer its outline; below kOutlineFrom_px there is none. Light on dark cells, dark on the rest.
 class Outlines {
  public:
-  /// `cell_px`: size of the cells at this edge on the picture.
-  void add(const Segment& segment, double cell_px);
+  struct Cell {
+    double size_px = 0.0;  ///< on the picture
+    bool is_dark = false;
+  };
+  void add(const Segment& segment, const Cell& cell);
   void draw(Canvas& canvas) const;
-  static bool is_visible(double cell_px) { return cell_px > kOutlineFrom_px; }
+  static bool is_visible(double size_px) { return size_px > kOutlineFrom_px; }
 
  private:
   static constexpr double kOutlineFrom_px = 4.0;
   static constexpr double kOutlineFull_px = 14.0;
   static constexpr std::size_t kLevels = 5;
-  std::array<std::vector<Segment>, kLevels> levels_;
+  std::array<std::vector<Segment>, kLevels> dark_, light_;
 };
 
 /// What a picture of the grid says beside the title: counts and the range of cell sizes.

@@ -11,12 +11,14 @@ namespace delos::pictures {
 
 namespace {
 
-// The path through Oklab: lightness, and hue in degrees from violet to yellow.
-constexpr double kLightnessLow = 0.24;
-constexpr double kLightnessHigh = 0.93;
-constexpr double kHueLow = 305.0;
-constexpr double kHueHigh = 102.0;
-constexpr double kChroma = 0.17;
+// The path through Oklab: lightness, hue in degrees from violet to yellow, and a chroma that is
+// least where sRGB has least to offer (blue-green), so that nothing is clipped.
+constexpr double kLightnessLow = 0.30;
+constexpr double kLightnessHigh = 0.92;
+constexpr double kHueLow = 300.0;
+constexpr double kHueHigh = 100.0;
+constexpr double kChromaMiddle = 0.095;
+constexpr double kChromaEnds = 0.15;
 
 constexpr double kUniformHalfWidth = 0.10;
 constexpr double kLogarithmicFrom = 3.0;
@@ -27,7 +29,6 @@ double gamma_encoded(double linear) {
 
 struct LinearRgb {
   double r, g, b;
-  bool fits() const { return std::min({r, g, b}) >= 0.0 && std::max({r, g, b}) <= 1.0; }
 };
 
 /// Ottosson 2020, https://bottosson.github.io/posts/oklab/.
@@ -63,9 +64,9 @@ ColourMap::ColourMap() {
     const double t = static_cast<double>(i) / static_cast<double>(kSteps - 1);
     const double lightness = kLightnessLow + t * (kLightnessHigh - kLightnessLow);
     const double hue = (kHueLow + t * (kHueHigh - kHueLow)) * kRadPerDeg;
-    double chroma = kChroma;
-    while (chroma > 0.0 && !from_oklab(lightness, chroma, hue).fits()) chroma -= 0.001;
-    const LinearRgb rgb = from_oklab(lightness, std::max(chroma, 0.0), hue);
+    const double off_middle = 2.0 * t - 1.0;
+    const double chroma = kChromaMiddle + (kChromaEnds - kChromaMiddle) * off_middle * off_middle;
+    const LinearRgb rgb = from_oklab(lightness, chroma, hue);
     table_[i] = {gamma_encoded(std::clamp(rgb.r, 0.0, 1.0)),
                  gamma_encoded(std::clamp(rgb.g, 0.0, 1.0)),
                  gamma_encoded(std::clamp(rgb.b, 0.0, 1.0)), 1.0};

@@ -11,7 +11,7 @@
 namespace delos::pictures {
 
 /// Perceptually even: lightness rises in a straight line from dark violet over blue and green to
-/// yellow, in Oklab (B. Ottosson 2020), chroma lowered where sRGB can't show it.
+/// yellow, in Oklab (B. Ottosson 2020), inside sRGB all the way.
 class ColourMap {
  public:
   ColourMap();

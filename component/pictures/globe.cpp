@@ -89,19 +89,19 @@ void paint_cells(Canvas& canvas, const CellPainter& painter, const Projection& l
   canvas.image(image, corner);
 }
 
-void draw_outlines(Canvas& canvas, const Grid& grid, const std::vector<double>& sizes_km,
+void draw_outlines(Canvas& canvas, const Grid& grid, const CellPainter& painter,
                    const Projection& look) {
   Outlines outlines;
   const double px_per_km = 1e3 * look.radius / grid.surface.scale_m();
   for (std::size_t edge = 0; edge < grid.vertices_on_edge.size(); ++edge) {
-    const auto cell = static_cast<std::size_t>(grid.cells_on_edge[edge][0]);
-    const double cell_px = px_per_km * sizes_km[cell];
-    if (!Outlines::is_visible(cell_px)) continue;
+    const Index cell = grid.cells_on_edge[edge][0];
+    const double size_px = px_per_km * painter.sizes_km()[static_cast<std::size_t>(cell)];
+    if (!Outlines::is_visible(size_px)) continue;
     const auto [first, second] = grid.vertices_on_edge[edge];
     const Vec3& a = grid.vertex_position[static_cast<std::size_t>(first)];
     const Vec3& b = grid.vertex_position[static_cast<std::size_t>(second)];
     if (!look.is_visible(a) || !look.is_visible(b)) continue;
-    outlines.add({look.pixel(a), look.pixel(b)}, cell_px);
+    outlines.add({look.pixel(a), look.pixel(b)}, {size_px, painter.is_dark(cell, a)});
   }
   outlines.draw(canvas);
 }
@@ -153,7 +153,7 @@ void draw_rim(Canvas& canvas, const Ellipsoid& surface, const Projection& look) 
 void draw_side(Canvas& canvas, const Grid& grid, const CellPainter& painter, const LandMask* land,
                const Projection& look) {
   paint_cells(canvas, painter, look);
-  draw_outlines(canvas, grid, painter.sizes_km(), look);
+  draw_outlines(canvas, grid, painter, look);
   draw_lines(canvas, grid, land, look);
   draw_rim(canvas, grid.surface, look);
 }

@@ -65,22 +65,23 @@ double unwrapped(double lon_deg, double near_deg) {
 }
 
 /// Adds one edge in pieces; where it leaves the map over the date line it enters on the other side.
-void add_edge(Outlines& outlines, const Frame& frame, const Segment& edge, double cell_px) {
+void add_edge(Outlines& outlines, const Frame& frame, const Segment& edge,
+              const Outlines::Cell& look) {
   for (const double turn : {-360.0, 0.0, 360.0}) {
     const double from = edge.from.x + turn, to = edge.to.x + turn;
     if (std::max(from, to) < -180.0 || std::min(from, to) > 180.0) continue;
-    outlines.add({frame.pixel(from, edge.from.y), frame.pixel(to, edge.to.y)}, cell_px);
+    outlines.add({frame.pixel(from, edge.from.y), frame.pixel(to, edge.to.y)}, look);
   }
 }
 
-void draw_outlines(Canvas& canvas, const Grid& grid, const std::vector<double>& sizes_km,
+void draw_outlines(Canvas& canvas, const Grid& grid, const CellPainter& painter,
                    const Frame& frame) {
   Outlines outlines;
   const double px_per_km = 1e3 * frame.box.height / (kPi * grid.surface.scale_m());
   for (std::size_t edge = 0; edge < grid.vertices_on_edge.size(); ++edge) {
-    const auto cell = static_cast<std::size_t>(grid.cells_on_edge[edge][0]);
-    const double cell_px = px_per_km * sizes_km[cell];
-    if (!Outlines::is_visible(cell_px)) continue;
+    const Index cell = grid.cells_on_edge[edge][0];
+    const double size_px = px_per_km * painter.sizes_km()[static_cast<std::size_t>(cell)];
+    if (!Outlines::is_visible(size_px)) continue;
     const auto [first, second] = grid.vertices_on_edge[edge];
     const Vec3& a = grid.vertex_position[static_cast<std::size_t>(first)];
     const Vec3& b = grid.vertex_position[static_cast<std::size_t>(second)];
@@ -88,13 +89,14 @@ void draw_outlines(Canvas& canvas, const Grid& grid, const std::vector<double>& 
       const LonLat at = grid.surface.lon_lat(grid.surface.project(p), grid.latitude);
       return Point{unwrapped(at.lon_rad * kDegPerRad, near_deg), at.lat_rad * kDegPerRad};
     };
+    const Outlines::Cell look{size_px, painter.is_dark(cell, a)};
     Point from = degrees(a, 0.0);
     const double width_deg = std::abs(degrees(b, from.x).x - from.x);
     const int n_pieces = std::clamp(static_cast<int>(width_deg / kPiece_deg) + 1, 1, kMostPieces);
     for (int piece = 1; piece <= n_pieces; ++piece) {
       const double t = static_cast<double>(piece) / n_pieces;
       const Point to = degrees(a + t * (b - a), from.x);
-      add_edge(outlines, frame, {from, to}, cell_px);
+      add_edge(outlines, frame, {from, to}, look);
       from = to;
     }
   }
@@ -150,7 +152,7 @@ void draw_map(const Grid& grid, const PictureOptions& options, const std::string
 
   paint_cells(canvas, grid, painter, frame);
   canvas.clip_box(frame.box);
-  draw_outlines(canvas, grid, painter.sizes_km(), frame);
+  draw_outlines(canvas, grid, painter, frame);
   draw_lines(canvas, land, frame);
   canvas.unclip();
   draw_axes(canvas, frame, unit);
