@@ -16,8 +16,8 @@ struct ConstantSource {
   double spacing_m = 0.0;
 };
 
-/// Through the points: piecewise linear, or monotone piecewise cubic (Fritsch & Carlson 1980,
-/// doi:10.1137/0717021); constant beyond the first and the last. Latitudes ascend.
+/// Through the points: piecewise linear, or monotone piecewise cubic (Fritsch & Butland 1984,
+/// doi:10.1137/0905021); constant beyond the first and the last. Latitudes ascend.
 struct LatitudeProfileSource {
   std::vector<double> lat_deg, spacing_m;
   bool cubic = false;

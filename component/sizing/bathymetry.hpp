@@ -11,7 +11,7 @@ namespace delos {
 /// 2006, doi:10.1007/s10236-006-0086-x). H is the depth, at least `min_depth_m`.
 struct SlopeSource {
   double cells = 20.0;      ///< cells a topographic wave length
-  double smooth_rad = 0.0;  ///< Gaussian sigma applied to the elevation first; 0 = none
+  double smooth_rad = 0.0;  ///< Gaussian sigma applied to the depth first; 0 = none
   double min_depth_m = 10.0;
   double max_m = 1.0e6;  ///< where the floor is flat
 };
@@ -23,12 +23,12 @@ struct TidalSource {
   double min_depth_m = 10.0;
 };
 
-/// From elevation (m, positive up, sea < 0) on the nodes of the table to metres of spacing in
-/// place. On land the depth is `min_depth_m`; give land a spacing of its own.
-void fill_slope(parallel::Executor& exec, const Ellipsoid& surface, const SlopeSource& source,
-                LatLonField& elevation_to_spacing);
-void fill_tidal(parallel::Executor& exec, const TidalSource& source,
-                LatLonField& elevation_to_spacing);
+/// `field` comes in as elevation (m, positive up, sea < 0, nothing missing) on the nodes of the
+/// table and leaves as metres of spacing. On land the depth is `min_depth_m`; give land a spacing
+/// of its own.
+void fill_slope(parallel::Executor& exec, const Ellipsoid& surface, LatitudeKind latitude,
+                const SlopeSource& source, LatLonField& field);
+void fill_tidal(parallel::Executor& exec, const TidalSource& source, LatLonField& field);
 
 /// Gravity for c = sqrt(g H), m/s2.
 inline constexpr double kGravity = 9.80665;

@@ -21,8 +21,8 @@ struct ClampOptions {
   double max_m = 1.0e7;
 };
 
-/// Takes the next source in: `total` becomes min / max of both, or total + weight * next.
-/// The first source of a blend must come in with is_first.
+/// Takes source number i_source in: `total` becomes the min / max of both, or total + weight *
+/// next; the sources must come in order, and number 0 replaces what `total` held.
 void combine_into(parallel::Executor& exec, const CombineOptions& options, std::size_t i_source,
                   const LatLonField& next, LatLonField& total);
 

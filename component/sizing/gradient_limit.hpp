@@ -8,9 +8,9 @@
 namespace delos {
 
 struct GradientLimitReport {
-  std::int64_t n_lowered = 0;  ///< nodes whose value fell
-  std::int64_t n_updates = 0;  ///< node updates done (fixed by the input, not by the threads)
-  int n_rounds = 0;
+  std::int64_t n_updates =
+      0;             ///< times that a node was lowered (fixed by the input, not by threads)
+  int n_rounds = 0;  ///< passes over the tiles that still changed
 };
 
 /// The largest h' <= h with |grad h'| <= slope on the surface (Persson 2006,

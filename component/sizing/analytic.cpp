@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "sizing/analytic.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/elementary.hpp"
+#include "core/error.hpp"
+#include "sizing/coast.hpp"
+#include "sizing/nodes.hpp"
+
+namespace delos {
+namespace {
+
+/// Widths beyond which exp(-d^2 / (2 width^2)) is below 2e-8.
+constexpr double kGaussianReach = 6.0;
+
+void check_edge(const RegionEdge& edge) {
+  for (const double h : {edge.spacing_m, edge.outside_m}) {
+    DELOS_CHECK(std::isfinite(h) && h > 0.0, ErrorKind::config, "spacing of a region is ", h,
+                " m: it must be finite and > 0");
+  }
+  DELOS_CHECK(std::isfinite(edge.width_rad) && edge.width_rad >= 0.0, ErrorKind::config,
+              "width of a region's transition is ", edge.width_rad * kDegPerRad,
+              " deg: it must be >= 0");
+}
+
+/// Spacing at the distance d (rad) outside the edge; d <= 0 is inside.
+double spacing_at(const RegionEdge& edge, double d) {
+  if (d <= 0.0) return edge.spacing_m;
+  if (edge.width_rad == 0.0) return edge.outside_m;
+  const double t = d / edge.width_rad;
+  if (edge.transition == Transition::gaussian) {
+    return edge.outside_m - (edge.outside_m - edge.spacing_m) * elementary::exp(-0.5 * t * t);
+  }
+  if (t >= 1.0) return edge.outside_m;
+  const double share = edge.transition == Transition::linear ? t : t * t * (3.0 - 2.0 * t);
+  return edge.spacing_m + (edge.outside_m - edge.spacing_m) * share;
+}
+
+/// Great-circle angle from p to the meridian `lon` between two latitudes.
+double angle_to_meridian(const Vec3& p, double lon_deg, double south_deg, double north_deg) {
+  const elementary::SinCos lon = elementary::sincos(lon_deg * kRadPerDeg);
+  const double forward = p[0] * lon.cos + p[1] * lon.sin;  // in the half plane of the meridian
+  const double across = p[1] * lon.cos - p[0] * lon.sin;
+  const double lat_deg = elementary::atan2(p[2], forward) * kDegPerRad;
+  if (forward > 0.0 && lat_deg >= south_deg && lat_deg <= north_deg) {
+    return elementary::asin(std::abs(across));
+  }
+  const double south = (p - unit_vector(lon_deg, south_deg)).squaredNorm();
+  const double north = (p - unit_vector(lon_deg, north_deg)).squaredNorm();
+  return angle_of_chord2(std::min(south, north));
+}
+
+double turn_into(double lon_deg, double west_deg) {
+  return lon_deg - 360.0 * std::floor((lon_deg - west_deg) / 360.0);
+}
+
+/// The corners of a ring with the detour over a pole that a ring round it needs.
+PolygonRing closed_ring(const PolygonRing& ring) {
+  PolygonRing closed = ring;
+  if (ring.lon_deg.empty()) return closed;
+  const double gap = ring.lon_deg.back() - ring.lon_deg.front();
+  if (std::abs(gap) > 180.0) {
+    double sum = 0.0;
+    for (const double lat : ring.lat_deg) sum += lat;
+    const double pole = sum < 0.0 ? -90.0 : 90.0;
+    const double end = ring.lon_deg.front() + (gap > 0.0 ? 360.0 : -360.0);
+    closed.lon_deg.insert(closed.lon_deg.end(), {end, end, ring.lon_deg.front()});
+    closed.lat_deg.insert(closed.lat_deg.end(), {ring.lat_deg.front(), pole, pole});
+  }
+  closed.lon_deg.push_back(ring.lon_deg.front());
+  closed.lat_deg.push_back(ring.lat_deg.front());
+  return closed;
+}
+
+/// Longitudes where the ring crosses a parallel, ascending; always an even number.
+std::vector<double> crossings(const PolygonRing& ring, double lat) {
+  std::vector<double> lon;
+  for (std::size_t k = 1; k < ring.lon_deg.size(); ++k) {
+    const double a = ring.lat_deg[k - 1], b = ring.lat_deg[k];
+    if ((a <= lat) == (b <= lat)) continue;
+    lon.push_back(ring.lon_deg[k - 1] +
+                  (lat - a) / (b - a) * (ring.lon_deg[k] - ring.lon_deg[k - 1]));
+  }
+  std::sort(lon.begin(), lon.end());
+  return lon;
+}
+
+/// Flips the columns with longitude in [west, east), any number of turns away.
+void flip_columns(double west, double east, Index n_lon, char* row) {
+  const double per_degree = n_lon / 360.0;
+  const auto begin = static_cast<std::int64_t>(std::ceil((west + 180.0) * per_degree));
+  const auto end = static_cast<std::int64_t>(std::ceil((east + 180.0) * per_degree));
+  for (std::int64_t k = begin; k < end; ++k) {
+    row[((k % n_lon) + n_lon) % n_lon] ^= 1;
+  }
+}
+
+/// Slopes of the monotone cubic at the points (weighted harmonic mean of the neighbours').
+std::vector<double> monotone_slopes(const std::vector<double>& x, const std::vector<double>& y) {
+  const std::size_t n = x.size();
+  std::vector<double> slope(n, 0.0);
+  for (std::size_t k = 1; k + 1 < n; ++k) {
+    const double h0 = x[k] - x[k - 1], h1 = x[k + 1] - x[k];
+    const double d0 = (y[k] - y[k - 1]) / h0, d1 = (y[k + 1] - y[k]) / h1;
+    if (d0 * d1 <= 0.0) continue;
+    const double w0 = 2.0 * h1 + h0, w1 = h1 + 2.0 * h0;
+    slope[k] = (w0 + w1) / (w0 / d0 + w1 / d1);
+  }
+  return slope;
+}
+
+double profile_at(const LatitudeProfileSource& source, const std::vector<double>& slope,
+                  double lat) {
+  const std::vector<double>&x = source.lat_deg, &y = source.spacing_m;
+  if (lat <= x.front()) return y.front();
+  if (lat >= x.back()) return y.back();
+  const auto k = static_cast<std::size_t>(std::upper_bound(x.begin(), x.end(), lat) - x.begin());
+  const double h = x[k] - x[k - 1], t = (lat - x[k - 1]) / h, r = 1.0 - t;
+  if (!source.cubic) return r * y[k - 1] + t * y[k];
+  return r * r * (1.0 + 2.0 * t) * y[k - 1] + t * t * (3.0 - 2.0 * t) * y[k] +
+         h * t * r * (r * slope[k - 1] - t * slope[k]);
+}
+
+void check_profile(const LatitudeProfileSource& source) {
+  const std::vector<double>& lat = source.lat_deg;
+  DELOS_CHECK(lat.size() == source.spacing_m.size() && lat.size() >= 2, ErrorKind::config,
+              "latitude profile has ", lat.size(), " latitudes and ", source.spacing_m.size(),
+              " spacings: give the same number, at least 2");
+  for (std::size_t k = 0; k < lat.size(); ++k) {
+    DELOS_CHECK(std::abs(lat[k]) <= 90.0 && (k == 0 || lat[k] > lat[k - 1]), ErrorKind::config,
+                "latitude profile has latitude ", lat[k],
+                " deg: they must ascend within [-90, 90] deg");
+    DELOS_CHECK(std::isfinite(source.spacing_m[k]) && source.spacing_m[k] > 0.0, ErrorKind::config,
+                "latitude profile has spacing ", source.spacing_m[k], " m at ", lat[k],
+                " deg: it must be finite and > 0");
+  }
+}
+
+}  // namespace
+
+void fill_constant(const ConstantSource& source, LatLonField& field) {
+  DELOS_CHECK(std::isfinite(source.spacing_m) && source.spacing_m > 0.0, ErrorKind::config,
+              "constant spacing is ", source.spacing_m, " m: it must be finite and > 0");
+  std::fill(field.values.begin(), field.values.end(), source.spacing_m);
+}
+
+void fill_latitude_profile(const LatitudeProfileSource& source, LatLonField& field) {
+  check_profile(source);
+  const std::vector<double> slope = monotone_slopes(source.lat_deg, source.spacing_m);
+  for (Index row = 0; row < field.n_rows(); ++row) {
+    const double h = profile_at(source, slope, 180.0 * row / field.n_lat_cells - 90.0);
+    std::fill_n(field.values.data() + field.at(row, 0), field.n_lon, h);
+  }
+}
+
+void fill_disc(parallel::Executor& exec, const DiscSource& source, LatLonField& field) {
+  check_edge(source.edge);
+  DELOS_CHECK(std::isfinite(source.radius_rad) && source.radius_rad >= 0.0 &&
+                  std::abs(source.lat_deg) <= 90.0,
+              ErrorKind::config, "disc of radius ", source.radius_rad * kDegPerRad,
+              " deg at latitude ", source.lat_deg,
+              " deg: the radius must be >= 0, the latitude within [-90, 90] deg");
+  const NodeDirections nodes(field);
+  const Vec3 centre = unit_vector(source.lon_deg, source.lat_deg);
+  for_rows(exec, field, [&](Index row, double* values) {
+    for (Index i = 0; i < field.n_lon; ++i) {
+      const double angle = angle_of_chord2((nodes.direction(row, i) - centre).squaredNorm());
+      values[i] = spacing_at(source.edge, angle - source.radius_rad);
+    }
+  });
+}
+
+void fill_box(parallel::Executor& exec, const BoxSource& source, LatLonField& field) {
+  check_edge(source.edge);
+  DELOS_CHECK(
+      source.south_deg < source.north_deg && source.south_deg >= -90.0 && source.north_deg <= 90.0,
+      ErrorKind::config, "box from latitude ", source.south_deg, " to ", source.north_deg,
+      " deg: south must be below north, both within [-90, 90] deg");
+  const bool is_ring = source.east_deg - source.west_deg >= 360.0;
+  const double width = is_ring ? 360.0 : turn_into(source.east_deg - source.west_deg, 0.0);
+  const NodeDirections nodes(field);
+  for_rows(exec, field, [&](Index row, double* values) {
+    const double lat = 180.0 * row / field.n_lat_cells - 90.0;
+    const double off = std::max(std::max(source.south_deg - lat, lat - source.north_deg), 0.0);
+    for (Index i = 0; i < field.n_lon; ++i) {
+      const double lon = turn_into(360.0 * i / field.n_lon - 180.0, source.west_deg);
+      double distance = off * kRadPerDeg;
+      if (lon - source.west_deg > width) {
+        const Vec3 p = nodes.direction(row, i);
+        distance =
+            std::min(angle_to_meridian(p, source.west_deg, source.south_deg, source.north_deg),
+                     angle_to_meridian(p, source.east_deg, source.south_deg, source.north_deg));
+      }
+      values[i] = spacing_at(source.edge, distance);
+    }
+  });
+}
+
+std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& polygons,
+                                  const LatLonField& like) {
+  std::vector<char> inside(like.values.size(), 0);
+  std::vector<PolygonRing> rings;
+  for (const PolygonRing& ring : polygons.rings) rings.push_back(closed_ring(ring));
+  // A pole itself belongs to what lies just beside it.
+  constexpr double kNearPole = 90.0 - 1.0e-6;
+  parallel::for_index(exec, like.n_rows(), kRowGrain, [&](std::int64_t j) {
+    const auto row = static_cast<Index>(j);
+    const double lat = 180.0 * row / like.n_lat_cells - 90.0;
+    for (const PolygonRing& ring : rings) {
+      const std::vector<double> lon = crossings(ring, std::clamp(lat, -kNearPole, kNearPole));
+      for (std::size_t k = 0; k + 1 < lon.size(); k += 2) {
+        flip_columns(lon[k], lon[k + 1], like.n_lon, inside.data() + like.at(row, 0));
+      }
+    }
+  });
+  return inside;
+}
+
+void fill_polygon(parallel::Executor& exec, const PolygonSource& source, LatLonField& field) {
+  check_edge(source.edge);
+  DELOS_CHECK(source.polygons && !source.polygons->rings.empty(), ErrorKind::input,
+              source.polygons ? source.polygons->source : "polygon source",
+              " holds no polygon: check the file and the feature's name");
+  const std::vector<char> inside = inside_polygons(exec, *source.polygons, field);
+  const double reach = source.edge.width_rad *
+                       (source.edge.transition == Transition::gaussian ? kGaussianReach : 1.0);
+  // Side points twice as dense as the table: distances true to a quarter of a cell.
+  const double step = 0.5 * kPi / field.n_lat_cells;
+  distance_to_points(exec, coast_points(*source.polygons, step), reach, field);
+  for_rows(exec, field, [&](Index row, double* values) {
+    for (Index i = 0; i < field.n_lon; ++i) {
+      const bool is_inside = inside[field.at(row, i)] != 0;
+      const bool is_beyond = values[i] >= reach;
+      values[i] = is_inside   ? source.edge.spacing_m
+                  : is_beyond ? source.edge.outside_m
+                              : spacing_at(source.edge, values[i]);
+    }
+  });
+}
+
+}  // namespace delos
