@@ -1,2 +1,125 @@
 // SPDX-License-Identifier: BSD-3-Clause
-#include "triangulation/mesh.hpp"
+#include "triangulation/flip.hpp"
+
+#include "core/error.hpp"
+#include "geometry/predicates.hpp"
+
+namespace delos {
+namespace {
+
+std::size_t slot(int k) { return static_cast<std::size_t>(k); }
+
+/// The quadrilateral o, u, p, v, counter-clockwise, with diagonal (u, v) = side `side` of `tri`.
+struct Quadrilateral {
+  Index o, u, p, v;
+  Index neighbour;
+  int neighbour_side;
+};
+
+Quadrilateral quadrilateral(const Mesh& mesh, Index tri, int side) {
+  const Triangle& t = mesh.triangle(tri);
+  Quadrilateral q{};
+  q.o = t.vertex[slot(side)];
+  q.u = t.vertex[slot(next_corner(side))];
+  q.v = t.vertex[slot(previous_corner(side))];
+  q.neighbour = t.neighbour[slot(side)];
+  const Triangle& n = mesh.triangle(q.neighbour);
+  q.neighbour_side = side_of_edge(n, q.v, q.u);
+  DELOS_ASSERT(q.neighbour_side >= 0);
+  q.p = n.vertex[slot(q.neighbour_side)];
+  return q;
+}
+
+/// Tells `tri` that `neighbour` is now across its side from -> to.
+void relink(Mesh& mesh, Index tri, Index from, Index to, Index neighbour) {
+  Triangle& t = mesh.triangle(tri);
+  const int side = side_of_edge(t, from, to);
+  DELOS_ASSERT(side >= 0);
+  t.neighbour[slot(side)] = neighbour;
+}
+
+bool is_positive(const Mesh& mesh, Index a, Index b, Index c) {
+  return predicates::orient_origin(mesh.position(a), mesh.position(b), mesh.position(c)) > 0;
+}
+
+}  // namespace
+
+Index opposite_vertex(const Mesh& mesh, Index tri, int side) {
+  return quadrilateral(mesh, tri, side).p;
+}
+
+void flip(Mesh& mesh, Index tri, int side) {
+  const Quadrilateral q = quadrilateral(mesh, tri, side);
+  Triangle& t = mesh.triangle(tri);
+  Triangle& n = mesh.triangle(q.neighbour);
+  const Index beyond_vo = t.neighbour[slot(next_corner(side))];
+  const Index beyond_ou = t.neighbour[slot(previous_corner(side))];
+  const Index beyond_up = n.neighbour[slot(next_corner(q.neighbour_side))];
+  const Index beyond_pv = n.neighbour[slot(previous_corner(q.neighbour_side))];
+  relink(mesh, beyond_vo, q.o, q.v, q.neighbour);
+  relink(mesh, beyond_up, q.p, q.u, tri);
+  t = {{q.o, q.u, q.p}, {beyond_up, q.neighbour, beyond_ou}};
+  n = {{q.p, q.v, q.o}, {beyond_vo, tri, beyond_pv}};
+}
+
+bool can_flip(const Mesh& mesh, Index tri, int side) {
+  const Quadrilateral q = quadrilateral(mesh, tri, side);
+  return is_positive(mesh, q.o, q.u, q.p) && is_positive(mesh, q.p, q.v, q.o);
+}
+
+bool is_illegal(const Mesh& mesh, const Ellipsoid& surface, Index tri, int side) {
+  const Quadrilateral q = quadrilateral(mesh, tri, side);
+  if (!surface.is_sphere()) {
+    return predicates::prefers_flip(mesh.position(q.u), mesh.position(q.v), mesh.position(q.o),
+                                    mesh.position(q.p));
+  }
+  return predicates::in_circle({mesh.position(q.o), q.o}, {mesh.position(q.u), q.u},
+                               {mesh.position(q.v), q.v}, {mesh.position(q.p), q.p});
+}
+
+std::int64_t restore_delaunay(Mesh& mesh, const Ellipsoid& surface, std::span<const Index> seeds,
+                              std::vector<Index>* touched) {
+  // Exact predicates end by themselves; the limit guards the tolerance of prefers_flip.
+  const std::int64_t most_flips = 64 * static_cast<std::int64_t>(mesh.n_triangles());
+  std::int64_t n_flips = 0;
+  std::vector<Index> stack(seeds.rbegin(), seeds.rend());
+  while (!stack.empty()) {
+    const Index tri = stack.back();
+    stack.pop_back();
+    for (int side = 0; side < 3; ++side) {
+      if (!is_illegal(mesh, surface, tri, side) || !can_flip(mesh, tri, side)) continue;
+      if (!surface.is_sphere() && n_flips >= most_flips) return n_flips;
+      const Index neighbour = mesh.triangle(tri).neighbour[slot(side)];
+      flip(mesh, tri, side);
+      ++n_flips;
+      stack.insert(stack.end(), {neighbour, tri});
+      if (touched != nullptr) touched->insert(touched->end(), {neighbour, tri});
+      break;
+    }
+  }
+  return n_flips;
+}
+
+std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
+                                         const Ellipsoid& surface) {
+  constexpr std::int64_t kGrain = 8192;  // about 0.5 ms
+  const std::int64_t n = mesh.n_triangles();
+  std::vector<std::vector<Index>> found(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
+  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Index>& list = found[static_cast<std::size_t>(begin / kGrain)];
+    for (auto tri = static_cast<Index>(begin); tri < static_cast<Index>(end); ++tri) {
+      for (int side = 0; side < 3; ++side) {
+        // Each side once, from its triangle of lower id.
+        if (mesh.triangle(tri).neighbour[slot(side)] < tri) continue;
+        if (!is_illegal(mesh, surface, tri, side)) continue;
+        list.push_back(tri);
+        break;
+      }
+    }
+  });
+  std::vector<Index> seeds;
+  for (const std::vector<Index>& list : found) seeds.insert(seeds.end(), list.begin(), list.end());
+  return restore_delaunay(mesh, surface, seeds);
+}
+
+}  // namespace delos
