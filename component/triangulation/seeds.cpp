@@ -49,8 +49,7 @@ std::vector<Vec3> edge_points(const Vec3& a, const Vec3& b, std::int64_t n) {
   const std::int64_t m = odd_part(n);
   const auto at = [&](std::int64_t i) -> Vec3& { return points[static_cast<std::size_t>(i)]; };
   for (std::int64_t i = 0; i <= m; ++i) {
-    at(i * (n / m)) =
-        (static_cast<double>(m - i) * a + static_cast<double>(i) * b).normalized();
+    at(i * (n / m)) = (static_cast<double>(m - i) * a + static_cast<double>(i) * b).normalized();
   }
   at(0) = a;
   at(n) = b;
