@@ -14,7 +14,7 @@ enum class SphereMapKind {
   /// Mars), conformal on all else.
   automatic,
   /// Longitude and geodetic latitude stay what they are, so that data are found where they were.
-  /// Angles change by at most 0.2 degrees on WGS 84. Spheroids around z only.
+  /// Angles change by at most 0.4 degrees on WGS 84. Spheroids around z only.
   lon_lat,
   /// Angles stay what they are: a well-centred triangulation stays well centred up to its
   /// curvature, O(spacing^2).
