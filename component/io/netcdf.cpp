@@ -2,6 +2,7 @@
 #include "io/netcdf.hpp"
 
 #include <netcdf.h>
+#include <sys/resource.h>
 
 #include <algorithm>
 #include <array>
@@ -9,7 +10,7 @@
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
-#include <new>
+#include <limits>
 #include <utility>
 
 #include "core/error.hpp"
@@ -30,18 +31,19 @@ struct TypePair {
   Type type;
   nc_type code;
   const char* name;
+  std::size_t size;
 };
-constexpr std::array<TypePair, 11> kTypes = {{{Type::int8, NC_BYTE, "int8"},
-                                              {Type::uint8, NC_UBYTE, "uint8"},
-                                              {Type::int16, NC_SHORT, "int16"},
-                                              {Type::uint16, NC_USHORT, "uint16"},
-                                              {Type::int32, NC_INT, "int32"},
-                                              {Type::uint32, NC_UINT, "uint32"},
-                                              {Type::int64, NC_INT64, "int64"},
-                                              {Type::uint64, NC_UINT64, "uint64"},
-                                              {Type::float32, NC_FLOAT, "float32"},
-                                              {Type::float64, NC_DOUBLE, "float64"},
-                                              {Type::text, NC_CHAR, "text"}}};
+constexpr std::array<TypePair, 11> kTypes = {{{Type::int8, NC_BYTE, "int8", 1},
+                                              {Type::uint8, NC_UBYTE, "uint8", 1},
+                                              {Type::int16, NC_SHORT, "int16", 2},
+                                              {Type::uint16, NC_USHORT, "uint16", 2},
+                                              {Type::int32, NC_INT, "int32", 4},
+                                              {Type::uint32, NC_UINT, "uint32", 4},
+                                              {Type::int64, NC_INT64, "int64", 8},
+                                              {Type::uint64, NC_UINT64, "uint64", 8},
+                                              {Type::float32, NC_FLOAT, "float32", 4},
+                                              {Type::float64, NC_DOUBLE, "float64", 8},
+                                              {Type::text, NC_CHAR, "text", 1}}};
 
 Type type_of(nc_type code) {
   for (const TypePair& pair : kTypes) {
@@ -55,6 +57,13 @@ nc_type code_of(Type type) {
     if (pair.type == type) return pair.code;
   }
   return NC_NAT;
+}
+
+std::size_t size_bytes(Type type) {
+  for (const TypePair& pair : kTypes) {
+    if (pair.type == type) return pair.size;
+  }
+  return 0;
 }
 
 void check_read(int status, const std::string& path, const std::string& variable) {
@@ -204,6 +213,19 @@ std::string reason_of(int status, const std::string& path) {
         text("disk full: No space left on device (", space.available, " bytes free; ", reason, ")");
   }
   return reason;
+}
+
+/// What the disk has left and the process may write into one file (`ulimit -f`).
+double space_for_file_bytes(const std::string& path) {
+  double bytes = std::numeric_limits<double>::infinity();
+  std::error_code error;
+  const fs::space_info space = fs::space(path, error);
+  if (!error) bytes = static_cast<double>(space.available);
+  rlimit limit{};
+  if (getrlimit(RLIMIT_FSIZE, &limit) == 0 && limit.rlim_cur != RLIM_INFINITY) {
+    bytes = std::min(bytes, static_cast<double>(limit.rlim_cur));
+  }
+  return bytes;
 }
 
 }  // namespace
@@ -434,7 +456,10 @@ Writer::Writer(const std::string& path, Format format) : path_(path), format_(fo
 }
 
 Writer::~Writer() {
-  if (handle_ >= 0) nc_abort(handle_);
+  // After a failed write, closing an HDF5 file fails again, and netCDF-C 4.9.0 then follows a bad
+  // pointer in its report of open objects. The process is worth more than the handle.
+  const bool may_crash = has_failed_ && format_ == Format::netcdf4;
+  if (handle_ >= 0 && !may_crash) nc_abort(handle_);
 }
 
 std::string Writer::name_of(VariableId variable) const {
@@ -442,8 +467,9 @@ std::string Writer::name_of(VariableId variable) const {
   return ": variable '" + variables_[static_cast<std::size_t>(variable.id)].name + "'";
 }
 
-void Writer::check(int status, const std::string& doing) const {
+void Writer::check(int status, const std::string& doing) {
   if (status == NC_NOERR) return;
+  has_failed_ = status == NC_EHDFERR || status > 0;  // below netCDF: HDF5 or the system
   throw Error(ErrorKind::output, text(path_, ": ", doing, ": ", reason_of(status, path_),
                                       ". Check the folder, its permissions and the free space."));
 }
@@ -469,6 +495,7 @@ VariableId Writer::define_variable(const std::string& name, Type type,
                    &id),
         "variable '" + name + "' can't be defined");
   variables_.push_back(variable);
+  is_compressed_.push_back(false);
   return {id};
 }
 
@@ -481,6 +508,7 @@ void Writer::compress(VariableId variable, int level) {
   if (format_ != Format::netcdf4) return;
   check(nc_def_var_deflate(handle_, variable.id, 1, 1, level),
         "can't compress" + name_of(variable));
+  is_compressed_[static_cast<std::size_t>(variable.id)] = true;
 }
 
 void Writer::attribute(VariableId variable, const std::string& name, const std::string& value) {
@@ -513,7 +541,24 @@ void Writer::attribute(VariableId variable, const std::string& name,
         "attribute '" + name + "' can't be written" + name_of(variable));
 }
 
-void Writer::end_definitions() { check(nc_enddef(handle_), "the header can't be written"); }
+void Writer::check_free_space() const {
+  double needed_bytes = 0.0;
+  for (std::size_t v = 0; v < variables_.size(); ++v) {
+    const bool is_counted = !is_compressed_[v];
+    needed_bytes += is_counted ? static_cast<double>(variables_[v].n_values()) *
+                                     static_cast<double>(size_bytes(variables_[v].type))
+                               : 0.0;
+  }
+  const double free_bytes = space_for_file_bytes(path_);
+  DELOS_CHECK(needed_bytes <= free_bytes, ErrorKind::output, path_, ": disk full: it needs ",
+              needed_bytes / 1e6, " MB where ", free_bytes / 1e6,
+              " MB may be written. Make room, raise `ulimit -f` or choose another folder.");
+}
+
+void Writer::end_definitions() {
+  check_free_space();
+  check(nc_enddef(handle_), "the header can't be written");
+}
 
 template <class T>
 void Writer::put_any(VariableId variable, std::span<const std::size_t> start,
@@ -571,6 +616,7 @@ void Writer::put_block(VariableId variable, std::span<const std::size_t> start,
 
 void Writer::close() {
   if (handle_ < 0) return;
+  check(nc_sync(handle_), "can't be completed");  // where HDF5 can still fail with grace
   check(nc_close(std::exchange(handle_, -1)), "can't be completed");
 }
 

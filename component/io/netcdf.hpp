@@ -157,6 +157,7 @@ class Writer {
   void attribute(VariableId variable, const std::string& name, std::int32_t value);
   void attribute(VariableId variable, const std::string& name, std::span<const double> values);
 
+  /// Error(output) when the variables (but compressed ones) need more space than the disk has.
   void end_definitions();
 
   /// Whole variable (of fixed size), row-major; the number of values is checked.
@@ -185,14 +186,17 @@ class Writer {
                std::span<const std::size_t> count, std::span<const T> values);
   template <class T>
   void put_whole(VariableId variable, std::span<const T> values);
-  void check(int status, const std::string& doing) const;
+  void check(int status, const std::string& doing);
+  void check_free_space() const;
   std::string name_of(VariableId variable) const;
 
   std::string path_;
   Format format_;
   int handle_ = -1;
+  bool has_failed_ = false;
   std::vector<Dimension> dimensions_;
   std::vector<Variable> variables_;
+  std::vector<bool> is_compressed_;
 };
 
 }  // namespace delos::netcdf
