@@ -29,8 +29,6 @@ NearestPoint::NearestPoint(std::vector<Vec3> points)
 
 Index NearestPoint::build(Index begin, Index end) {
   const Index self = static_cast<Index>(nodes_.size());
-  nodes_.push_back({0.0, begin, end, -1, kNone});
-  if (end - begin <= kLeafSize) return self;
   Vec3 low = points_[static_cast<std::size_t>(order_[static_cast<std::size_t>(begin)])];
   Vec3 high = low;
   for (Index i = begin; i < end; ++i) {
@@ -38,6 +36,8 @@ Index NearestPoint::build(Index begin, Index end) {
     low = low.cwiseMin(p);
     high = high.cwiseMax(p);
   }
+  nodes_.push_back({low, high, begin, end, kNone});
+  if (end - begin <= kLeafSize) return self;
   int axis = 0;
   (high - low).maxCoeff(&axis);
   const Index middle = begin + (end - begin) / 2;
@@ -45,13 +45,9 @@ Index NearestPoint::build(Index begin, Index end) {
   std::nth_element(
       order_.begin() + begin, order_.begin() + middle, order_.begin() + end,
       [&](Index a, Index b) { return key(a) < key(b) || (key(a) == key(b) && a < b); });
-  const double split = key(order_[static_cast<std::size_t>(middle)]);
   build(begin, middle);
   const Index right = build(middle, end);
-  Node& node = nodes_[static_cast<std::size_t>(self)];
-  node.split = split;
-  node.axis = static_cast<std::int8_t>(axis);
-  node.right = right;
+  nodes_[static_cast<std::size_t>(self)].right = right;
   return self;
 }
 
@@ -66,12 +62,12 @@ NearestPoint::Hit NearestPoint::find(const Vec3& query, Hit best) const {
   };
   std::array<Visit, kMaxDepth> stack;
   std::size_t depth = 0;
-  if (!nodes_.empty()) stack[depth++] = {0, 0.0};
+  if (!nodes_.empty()) stack[depth++] = {0, nodes_[0].gap2(query)};
   while (depth > 0) {
     const Visit visit = stack[--depth];
     if (visit.gap2 > best.chord2) continue;
     const Node& node = nodes_[static_cast<std::size_t>(visit.node)];
-    if (node.axis < 0) {
+    if (node.right == kNone) {
       for (Index i = node.begin; i < node.end; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const Hit hit{(query - sorted_[k]).squaredNorm(), order_[k]};
@@ -79,11 +75,11 @@ NearestPoint::Hit NearestPoint::find(const Vec3& query, Hit best) const {
       }
       continue;
     }
-    const double gap = query[node.axis] - node.split;
-    const Index near = gap < 0.0 ? visit.node + 1 : node.right;
-    const Index far = gap < 0.0 ? node.right : visit.node + 1;
-    stack[depth++] = {far, std::max(visit.gap2, gap * gap)};
-    stack[depth++] = {near, visit.gap2};
+    const Visit left{visit.node + 1, nodes_[static_cast<std::size_t>(visit.node) + 1].gap2(query)};
+    const Visit right{node.right, nodes_[static_cast<std::size_t>(node.right)].gap2(query)};
+    const bool left_first = left.gap2 <= right.gap2;
+    stack[depth++] = left_first ? right : left;
+    stack[depth++] = left_first ? left : right;
   }
   return best;
 }

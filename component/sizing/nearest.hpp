@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Nearest of many points on the unit sphere: a k-d tree.
+// Nearest of many points on the unit sphere: a k-d tree with boxes.
 #include <cstdint>
 #include <vector>
 
@@ -25,10 +25,12 @@ class NearestPoint {
 
  private:
   struct Node {
-    double split;
+    Vec3 low, high;    ///< box around the points below
     Index begin, end;  ///< of order_
-    std::int8_t axis;  ///< -1 = leaf
-    Index right;       ///< the left child follows its parent
+    Index right;       ///< kNone = leaf; the left child follows its parent
+    double gap2(const Vec3& query) const {
+      return (low - query).cwiseMax(query - high).cwiseMax(0.0).squaredNorm();
+    }
   };
   Index build(Index begin, Index end);
 

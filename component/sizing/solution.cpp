@@ -66,12 +66,7 @@ void fill_eddies(parallel::Executor& exec, const EddySource& source, LatLonField
               "eddy energies are clamped at ", source.max_energy, " and filled by amplitude ",
               source.fill_amplitude, ": the clamp must be > 0, the fill >= 0");
   sample(exec, *source.field, field);
-  const double fill = energy_of(source.quantity, source.fill_amplitude);
-  for_rows(exec, field, [&](Index, double* values) {
-    for (Index i = 0; i < field.n_lon; ++i) {
-      values[i] = std::isnan(values[i]) ? fill : std::clamp(values[i], 0.0, source.max_energy);
-    }
-  });
+  // What is missing takes no part in the mean: the quiet fill must not calm its neighbours.
   smooth(exec, source.smooth_rad, field);
   for_rows(exec, field, [&](Index, double* values) {
     for (Index i = 0; i < field.n_lon; ++i) values[i] = eddy_spacing_m(source, values[i]);

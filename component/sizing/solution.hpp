@@ -32,8 +32,8 @@ struct EddySource {
   EddyQuantity quantity = EddyQuantity::kinetic_energy;
   std::variant<EddyLinear, EddyThreshold> form;
   double fill_amplitude = 0.03;  ///< where the field is missing (ice, poles, equator band)
-  double max_energy = 0.5;       ///< field values above are taken as this (m2/s2 or m2)
-  double smooth_rad = 0.0;       ///< Gaussian sigma applied to the filled field; 0 = none
+  double smooth_rad = 0.0;       ///< Gaussian sigma applied to the valid values first; 0 = none
+  double max_energy = 0.5;       ///< values above are then taken as this (m2/s2 or m2)
 };
 
 void fill_eddies(parallel::Executor& exec, const EddySource& source, LatLonField& field);
