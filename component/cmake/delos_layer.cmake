@@ -25,12 +25,13 @@ function(delos_layer name)
   delos_target_options(${target})
   set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE ON CXX_VISIBILITY_PRESET hidden
     VISIBILITY_INLINES_HIDDEN ON)
-  target_include_directories(${target} PUBLIC ${PROJECT_SOURCE_DIR}/component)
-  target_link_libraries(${target} PUBLIC ${arg_LIBRARIES})
-  foreach(layer IN LISTS arg_DEPENDS)
-    # Only usage requirements travel; the objects are collected once, by delos_layer_closure.
-    target_link_libraries(${target} PUBLIC $<TARGET_PROPERTY:delos_${layer},INTERFACE_LINK_LIBRARIES>)
-  endforeach()
+  # Usage requirements travel through an interface target; objects do not: delos_layer_closure
+  # collects them once.
+  add_library(${target}_usage INTERFACE)
+  target_include_directories(${target}_usage INTERFACE ${PROJECT_SOURCE_DIR}/component)
+  list(TRANSFORM arg_DEPENDS REPLACE "(.+)" "delos_\\1_usage" OUTPUT_VARIABLE below)
+  target_link_libraries(${target}_usage INTERFACE ${arg_LIBRARIES} ${below})
+  target_link_libraries(${target} PUBLIC ${target}_usage)
   set_property(GLOBAL PROPERTY DELOS_DEPENDS_${name} ${arg_DEPENDS})
   set_property(GLOBAL APPEND PROPERTY DELOS_LAYERS ${name})
 endfunction()

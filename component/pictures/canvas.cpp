@@ -68,6 +68,20 @@ Canvas::~Canvas() = default;
 int Canvas::width() const { return cairo_image_surface_get_width(impl_->surface); }
 int Canvas::height() const { return cairo_image_surface_get_height(impl_->surface); }
 
+Colour Canvas::pixel(int column, int row) const {
+  cairo_surface_flush(impl_->surface);
+  const auto stride = static_cast<std::size_t>(cairo_image_surface_get_stride(impl_->surface));
+  std::uint32_t word = 0;
+  std::memcpy(&word,
+              cairo_image_surface_get_data(impl_->surface) +
+                  static_cast<std::size_t>(row) * stride + 4 * static_cast<std::size_t>(column),
+              sizeof word);
+  const auto channel = [&](int shift) { return (word >> shift & 0xffU) / 255.0; };
+  const double alpha = channel(24);
+  if (alpha == 0.0) return {0.0, 0.0, 0.0, 0.0};
+  return {channel(16) / alpha, channel(8) / alpha, channel(0) / alpha, alpha};
+}
+
 void Canvas::image(const Image& image, const Point& top_left) {
   cairo_surface_t* source =
       cairo_image_surface_create(CAIRO_FORMAT_ARGB32, image.width, image.height);

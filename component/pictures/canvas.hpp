@@ -65,6 +65,8 @@ class Canvas {
 
   int width() const;
   int height() const;
+  /// What is on the sheet now.
+  Colour pixel(int column, int row) const;
 
   void image(const Image& image, const Point& top_left);
   void segments(std::span<const Segment> segments, const LineStyle& style);
