@@ -294,11 +294,12 @@ bool Builder::conflicts_exactly(const Cell& cell, std::uint32_t p) {
                                      site(cell.vertex[2]), site(p));
 }
 
-/// The triangle of locally largest u.p: the one that p sees through, unless planes coincide.
+/// A triangle that p is beyond for certain, h > bound, on the way up the heights u.p - 1; else the
+/// one where the way ends: where p sees through the hull, unless planes coincide.
 std::uint32_t Builder::climb(const Site& p, double& h) {
   std::uint32_t tri = last_;
   h = height(cells_[tri], p);
-  for (;;) {
+  while (!(h > cells_[tri].bound)) {
     ++report_.n_walk_steps;
     const Cell& cell = cells_[tri];
     const std::uint32_t n0 = cell.neighbour[0] >> 2;
@@ -320,9 +321,10 @@ std::uint32_t Builder::climb(const Site& p, double& h) {
       h = h2;
       best = n2;
     }
-    if (best == tri) return tri;
+    if (best == tri) break;
     tri = best;
   }
+  return tri;
 }
 
 /// The triangle whose cone from the origin holds p, by exact orientation. The triangles are those
