@@ -133,7 +133,8 @@ def check_cmake(root):
         lists = root / "component" / layer / "CMakeLists.txt"
         if not lists.exists():
             continue
-        found = re.search(r"DEPENDS([^)]*?)(?:LIBRARIES|SOURCES|\))", lists.read_text(), re.S)
+        found = re.search(r"delos_layer\([^)]*DEPENDS([^)]*?)(?:LIBRARIES|SOURCES|\))",
+                          lists.read_text())
         for name in found.group(1).split() if found else []:
             if name not in below:
                 yield "cmake", f"component/{layer}/CMakeLists.txt: {layer} must not depend on {name}"

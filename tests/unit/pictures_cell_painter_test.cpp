@@ -14,12 +14,19 @@
 #include "pictures/histograms.hpp"
 #include "pictures/map.hpp"
 #include "triangulation/delaunay.hpp"
+#include "triangulation/flip.hpp"
 #include "triangulation/seeds.hpp"
 
 using namespace delos;
 using namespace delos::pictures;
 
 namespace {
+
+Mesh triangulated(parallel::Executor& exec, const Ellipsoid& body) {
+  Mesh mesh = delaunay(exec, fibonacci_points(700, body));
+  restore_delaunay_everywhere(exec, mesh, body);
+  return mesh;
+}
 
 struct Example {
   parallel::Executor exec{2};
@@ -31,7 +38,7 @@ struct Example {
 
   explicit Example(const Ellipsoid& body)
       : surface(body),
-        mesh(delaunay(exec, fibonacci_points(700, body))),
+        mesh(triangulated(exec, body)),
         grid(build_grid(context, body, LatitudeKind::geodetic, mesh)) {}
 };
 
