@@ -175,8 +175,8 @@ Index insert_vertex(Mesh& mesh, const Ellipsoid& surface, const Vertex& vertex, 
     DELOS_CHECK(mesh.position(corner) != p, ErrorKind::input, "the new vertex (", p.x(), ", ",
                 p.y(), ", ", p.z(), ") is at the position of vertex ", corner, ".");
   }
-  // One triangle becomes three. A vertex on a side leaves one of them flat until the flips, which
-  // always take that side.
+  // One triangle becomes three; where the vertex is on a side, one of them is flat and goes by a
+  // flip of that side.
   const Index added = mesh.n_vertices();
   const Index second = mesh.n_triangles();
   const Index third = second + 1;
@@ -188,7 +188,14 @@ Index insert_vertex(Mesh& mesh, const Ellipsoid& surface, const Vertex& vertex, 
   mesh.triangles.push_back({{added, a, b}, {beyond_ab, tri, second}});
   replace_neighbour(mesh.triangle(beyond_ca), a, c, second);
   replace_neighbour(mesh.triangle(beyond_ab), b, a, third);
-  restore_delaunay(mesh, surface, std::array<Index, 3>{tri, second, third});
+  std::vector<Index> seeds = {tri, second, third};
+  for (const Index flat : {tri, second, third}) {
+    const auto& v = mesh.triangle(flat).vertex;
+    if (orientation(mesh, v[0], v[1], v[2]) > 0) continue;
+    seeds.push_back(mesh.triangle(flat).neighbour[0]);
+    flip(mesh, flat, 0);
+  }
+  restore_delaunay(mesh, surface, seeds);
   return added;
 }
 

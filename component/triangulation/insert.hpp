@@ -12,7 +12,8 @@ namespace delos {
 
 /// Adds the vertex, which must be on the surface, and returns its id, n_vertices before the call;
 /// the two new triangles are the last ones. `hint` is any triangle, best one close by: the cost is
-/// that of locate() and about six flips. Error(input) when a vertex is at the same position.
+/// that of locate() and about six flips. Error(input) when a vertex is at the same position; closer
+/// than about 1e-8 radii to another one rounding may leave a side that is not Delaunay.
 Index insert_vertex(Mesh& mesh, const Ellipsoid& surface, const Vertex& vertex, Index hint);
 
 /// Removes the vertex: flips until it has three triangles, one triangle in their place, then flips
