@@ -51,6 +51,7 @@ AxisKind kind_of(const netcdf::Reader& file, const std::string& name) {
   const std::string units = attribute("units");
   if (is_one_of(units, kNorth)) return AxisKind::latitude;
   if (is_one_of(units, kEast)) return AxisKind::longitude;
+  if (begins_with(units, "rad")) return AxisKind::other;  // never taken for degrees
   if (units.find(" since ") != std::string::npos) return AxisKind::time;
   const std::string standard_name = attribute("standard_name");
   if (standard_name == "latitude") return AxisKind::latitude;

@@ -362,6 +362,8 @@ TEST_CASE("coordinates are known by units, standard name, axis or name") {
   CHECK(read_with("LAT", "LON", "units", "degrees", "degrees"));
   expect_error(ErrorKind::input, {"h.nc", "no variable on a latitude", "h(6, 12)"},
                [&] { read_with("j", "i", nullptr, "", ""); });
+  expect_error(ErrorKind::input, {"h.nc", "no variable on a latitude"},
+               [&] { read_with("lat", "lon", "units", "radians", "radians"); });
   // Metres along x and y are a projection.
   expect_error(ErrorKind::input, {"h.nc", "no variable on a latitude"},
                [&] { read_with("y", "x", "units", "m", "m"); });
