@@ -52,9 +52,9 @@ Grid build_grid(Context& context, const Ellipsoid& surface, LatitudeKind latitud
     context.monitor.advance(mesh.n_vertices() / 5);
     context.monitor.check_cancelled();
   };
+  dual::place_cells_and_vertices(context.exec, mesh, grid);
   dual::connect(context.exec, mesh, grid);
   step_done();
-  dual::place_cells_and_vertices(context.exec, mesh, grid);
   dual::place_edges(context.exec, grid);
   step_done();
   dual::locate(context.exec, grid);

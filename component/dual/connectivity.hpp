@@ -8,6 +8,7 @@
 namespace delos::dual {
 
 /// Fills every table of Grid that holds indices, from the triangles alone. Count, scan, fill; O(n).
+/// Needs the positions of cells and vertices (their number).
 void connect(parallel::Executor& exec, const Mesh& mesh, Grid& grid);
 
 }  // namespace delos::dual

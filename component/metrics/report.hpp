@@ -40,8 +40,7 @@ struct Report {
 
 /// JSON, two spaces, keys in a fixed order, numbers that read back to the same double. Everything
 /// but "threads" and "phases" depends on the grid alone. Error(internal) naming the key when a
-/// number is not
-/// finite.
+/// number is not finite.
 std::string report_json(const Report& report);
 
 /// At most 24 lines of at most 80 columns, each ended by a newline.
