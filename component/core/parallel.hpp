@@ -55,6 +55,7 @@ void for_index(Executor& exec, std::int64_t n, std::int64_t grain, Body&& body) 
 /// Result of combine(...combine(identity, map(block 0))..., map(last block)), in block order:
 /// the grain is part of the answer, the thread count is not. map(begin, end) -> T.
 template <class T, class Map, class Combine>
+// NOLINTNEXTLINE(readability-function-size): six things make a reduction, and T comes from one.
 T reduce(Executor& exec, std::int64_t n, std::int64_t grain, T identity, Map&& map,
          Combine&& combine) {
   std::vector<T> partial(static_cast<std::size_t>((n + grain - 1) / grain), identity);

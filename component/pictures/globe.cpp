@@ -66,8 +66,9 @@ void paint_cells(Canvas& canvas, const CellPainter& painter, const Projection& l
     for (int column = 0; column < side; ++column) {
       Colour sum{0.0, 0.0, 0.0, 0.0};
       for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const Point at{corner.x + column + (sample % kSamples + 0.5) / kSamples,
-                       corner.y + row + (sample / kSamples + 0.5) / kSamples};
+        const int over = sample % kSamples, down = sample / kSamples;
+        const Point at{corner.x + column + (over + 0.5) / kSamples,
+                       corner.y + row + (down + 0.5) / kSamples};
         const std::optional<Vec3> p = look.point(at);
         if (!p) continue;
         const Colour colour = painter.colour(*p, cell);

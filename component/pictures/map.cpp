@@ -44,8 +44,9 @@ void paint_cells(Canvas& canvas, const Grid& grid, const CellPainter& painter, c
     for (int column = 0; column < image.width; ++column) {
       Colour sum{0.0, 0.0, 0.0, 1.0};
       for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const double x = frame.box.x + column + (sample % kSamples + 0.5) / kSamples;
-        const double y = frame.box.y + row + (sample / kSamples + 0.5) / kSamples;
+        const int over = sample % kSamples, down = sample / kSamples;
+        const double x = frame.box.x + column + (over + 0.5) / kSamples;
+        const double y = frame.box.y + row + (down + 0.5) / kSamples;
         const Vec3 p = grid.surface.point(
             {frame.lon_deg(x) * kRadPerDeg, frame.lat_deg(y) * kRadPerDeg}, grid.latitude);
         const Colour colour = painter.colour(p, cell);
