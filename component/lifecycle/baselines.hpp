@@ -18,8 +18,7 @@ double baseline_spacing_m(Generator generator, const Ellipsoid& surface, std::in
 /// the vertices pass 32-bit ids.
 std::int64_t baseline_subdivisions(Generator generator, const Ellipsoid& surface, double spacing_m);
 
-/// The triangulation, projected from the sphere; cubed sphere: faces cut along a diagonal. The
-/// same bits for any number of threads.
+/// The Delaunay triangulation of the baseline's points. The same bits for any number of threads.
 Mesh build_baseline(Context& context, Generator generator, const Ellipsoid& surface,
                     std::int64_t subdivisions);
 

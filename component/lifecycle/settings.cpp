@@ -67,7 +67,7 @@ void read_baseline(MapReader& root, const char* generator, Settings& out) {
     root.fail("subdivisions", "give either subdivisions (e.g. 64) or spacing (e.g. 120 km) for ",
               "generator: ", generator, ".");
   }
-  constexpr std::int64_t kMaxSubdivisions = 8000;  // 10 n^2 + 2 stays within 32-bit ids
+  constexpr std::int64_t kMaxSubdivisions = 7000;  // 10 n^2 + 2 stays within 32-bit ids
   if (root.has("subdivisions")) {
     out.subdivisions = root.integer("subdivisions", 1, kMaxSubdivisions);
   } else {
@@ -110,7 +110,8 @@ RelaxOptions read_relax(MapReader keys) {
 }
 
 LonLat read_view(MapReader& keys) {
-  if (!keys.has("view")) return {0.0, 0.0};
+  // The Atlantic with both its coasts.
+  if (!keys.has("view")) return {-30.0 * kRadPerDeg, 25.0 * kRadPerDeg};
   const auto degrees =
       keys.quantities("view", Dimension::angle, Bounds::between(-360.0, 360.0), {2, 2});
   if (degrees[1] < -90.0 || degrees[1] > 90.0) {

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What the command line asks for.
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace delos::app {
+
+enum class Command { mesh, check, info, plot };
+
+struct Arguments {
+  Command command = Command::mesh;
+  std::string file;       ///< configuration (mesh) or grid
+  std::string directory;  ///< -o; empty: what the configuration says
+  int threads = 0;        ///< 0: what the configuration says
+  bool quiet = false;
+  std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value
+  std::string command_line;                                    ///< for the files' history
+};
+
+/// Outcome of parsing: go on, or end with this status (help was printed, or the words were wrong).
+struct ParseResult {
+  bool go_on = false;
+  int status = 0;
+};
+
+ParseResult parse_arguments(int argc, const char* const* argv, Arguments& out);
+
+}  // namespace delos::app

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "app/loaded_grid.hpp"
+
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "dual/build.hpp"
+
+namespace delos::app {
+
+LoadedGrid load_grid(Context& context, const std::string& path) {
+  LoadedGrid out{read_grid_file(context, path), {}, {}};
+  const GridFile& file = out.file;
+  DELOS_CHECK(file.mesh || file.grid, ErrorKind::input, path,
+              ": a UGRID file whose faces do not close over the whole surface can't be checked.");
+  out.grid = file.grid ? *file.grid : build_grid(context, file.surface, file.latitude, *file.mesh);
+  out.report.title = std::filesystem::path(path).filename().string();
+  out.report.version = file.origin.version;
+  out.report.surface = file.surface;
+  out.report.n_threads = context.exec.n_threads();
+  out.report.digest = file.origin.digest;
+  if (file.mesh) {
+    out.report.quality = measure_quality(context, file.surface, *file.mesh, file.latitude);
+  }
+  return out;
+}
+
+}  // namespace delos::app

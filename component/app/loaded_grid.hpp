@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A grid file with the numbers that every command shows.
+#include <optional>
+#include <string>
+
+#include "lifecycle/grid_file.hpp"
+#include "metrics/report.hpp"
+
+namespace delos::app {
+
+struct LoadedGrid {
+  GridFile file;
+  Grid grid;      ///< as the file has it, or built from the file's triangulation
+  Report report;  ///< measured anew; quality only where the grid is closed
+};
+
+LoadedGrid load_grid(Context& context, const std::string& path);
+
+}  // namespace delos::app

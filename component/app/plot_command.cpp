@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <cstdio>
+#include <filesystem>
+
+#include "app/commands.hpp"
+#include "app/exit_status.hpp"
+#include "app/loaded_grid.hpp"
+#include "app/pictures.hpp"
+#include "core/error.hpp"
+#include "io/embedded_bathymetry.hpp"
+
+namespace delos::app {
+
+int run_plot(const Arguments& arguments, const std::atomic<bool>& cancel) {
+  namespace fs = std::filesystem;
+  parallel::Executor exec(arguments.threads);
+  Monitor monitor({}, {}, &cancel);
+  Context context{exec, monitor};
+  const LoadedGrid loaded = load_grid(context, grid_files(arguments.file).front());
+  const Raster elevation_m = embedded_bathymetry();
+  std::error_code error;
+  fs::create_directories(arguments.directory, error);
+  DELOS_CHECK(!error, ErrorKind::output, "the folder ", arguments.directory,
+              " can't be made: ", error.message(), ".");
+  constexpr LonLat kView{-30.0 * kRadPerDeg, 25.0 * kRadPerDeg};
+  const PictureSubject subject{loaded.report.title, loaded.grid, loaded.report.quality,
+                               &elevation_m, kView};
+  const std::string stem = fs::path(loaded.file.path).stem().string();
+  for (const char* const picture : {"globe", "map", "histograms"}) {
+    if (!loaded.file.mesh && std::string(picture) == "histograms") continue;
+    monitor.check_cancelled();
+    const fs::path path = fs::path(arguments.directory) / text(stem, ".", picture, ".png");
+    draw_picture(subject, picture, path.string());
+    std::printf("wrote %s\n", path.c_str());
+  }
+  return kSuccess;
+}
+
+}  // namespace delos::app

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/grid_file.hpp"
+
+#include <algorithm>
+#include <filesystem>
+#include <tuple>
+
+#include "core/error.hpp"
+#include "io/mpas.hpp"
+#include "io/netcdf.hpp"
+#include "io/provenance.hpp"
+#include "io/ugrid.hpp"
+
+namespace delos {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Corners = std::vector<std::array<Index, 3>>;
+
+bool is_mpas(const netcdf::Reader& file) {
+  return file.has_variable("cellsOnVertex") && file.has_variable("verticesOnCell");
+}
+
+bool is_ugrid(const netcdf::Reader& file) {
+  return std::any_of(file.variables().begin(), file.variables().end(), [&](const auto& variable) {
+    return file.text_attribute(variable.name, "cf_role") == "mesh_topology";
+  });
+}
+
+FileOrigin read_origin(const netcdf::Reader& file, const char* format) {
+  const Provenance notes = read_provenance(file);
+  FileOrigin out;
+  out.format = format;
+  out.version = notes.version;
+  out.config = notes.config;
+  out.digest = notes.digest;
+  out.history = notes.history;
+  for (const InputFile& input : notes.inputs) out.inputs.push_back({input.path, input.sha256});
+  out.has_certificate = notes.certificate.has_value();
+  if (out.has_certificate) {
+    out.well_centred = notes.certificate->well_centred;
+    out.min_relative_edge = notes.certificate->min_relative_edge;
+    out.min_dual_ratio = notes.certificate->min_dual_ratio;
+  }
+  return out;
+}
+
+void set_position(Vertex& vertex, const Vec3& p) {
+  vertex.x = p.x();
+  vertex.y = p.y();
+  vertex.z = p.z();
+}
+
+void read_mpas_into(GridFile& out) {
+  out.grid = read_mpas(out.path);
+  const Grid& grid = *out.grid;
+  out.surface = grid.surface;
+  out.latitude = grid.latitude;
+  const bool is_closed =
+      std::all_of(grid.cells_on_vertex.begin(), grid.cells_on_vertex.end(), [](const auto& cells) {
+        return std::all_of(cells.begin(), cells.end(), [](Index cell) { return cell != kNone; });
+      });
+  if (!is_closed) return;
+  std::vector<Vertex> vertices(grid.cell_position.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    set_position(vertices[i], grid.cell_position[i]);
+    vertices[i].spacing =
+        grid.cell_spacing_m.empty() ? 0.0 : grid.cell_spacing_m[i] / grid.surface.scale_m();
+  }
+  out.mesh = mesh_from_triangles(std::move(vertices), grid.cells_on_vertex);
+}
+
+/// Corners of triangular faces.
+Corners face_corners(const UgridMesh& ugrid) {
+  Corners corners(ugrid.nodes_on_face.offsets.size() - 1);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const auto row = ugrid.nodes_on_face.row(static_cast<std::int64_t>(i));
+    std::copy(row.begin(), row.end(), corners[i].begin());
+  }
+  return corners;
+}
+
+/// The triangles of a Voronoi diagram: the three faces around each node, counter-clockwise.
+Corners node_faces(const std::string& path, const UgridMesh& ugrid,
+                   const std::vector<Vertex>& centres) {
+  Corners faces(ugrid.node.size(), {kNone, kNone, kNone});
+  for (std::size_t face = 0; face + 1 < ugrid.nodes_on_face.offsets.size(); ++face) {
+    for (const Index node : ugrid.nodes_on_face.row(static_cast<std::int64_t>(face))) {
+      auto& row = faces[static_cast<std::size_t>(node)];
+      const auto slot = std::find(row.begin(), row.end(), kNone);
+      DELOS_CHECK(slot != row.end(), ErrorKind::input, path, ": node ", node,
+                  " belongs to more than three faces; this is no Voronoi diagram of points in "
+                  "general position and can't be checked as one.");
+      *slot = static_cast<Index>(face);
+    }
+  }
+  for (auto& row : faces) {
+    if (row[2] == kNone) continue;  // a border; mesh_from_triangles is not asked then
+    const auto at = [&](std::size_t k) {
+      return centres[static_cast<std::size_t>(row[k])].position();
+    };
+    if (at(0).cross(at(1)).dot(at(2)) < 0.0) std::swap(row[1], row[2]);
+  }
+  return faces;
+}
+
+std::vector<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lon_lat) {
+  std::vector<Vertex> out(lon_lat.size());
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    set_position(out[i], file.surface.point(lon_lat[i], file.latitude));
+    out[i].spacing = 0.0;
+  }
+  return out;
+}
+
+void read_ugrid_into(GridFile& out) {
+  const UgridMesh ugrid = read_ugrid(out.path);
+  if (ugrid.ellipsoid) out.surface = *ugrid.ellipsoid;
+  out.latitude = ugrid.latitude;
+  const std::size_t n_faces = ugrid.nodes_on_face.offsets.size() - 1;
+  bool all_triangles = true;
+  for (std::size_t i = 0; i < n_faces && all_triangles; ++i) {
+    all_triangles = ugrid.nodes_on_face.row(static_cast<std::int64_t>(i)).size() == 3;
+  }
+  if (all_triangles) {
+    out.mesh = mesh_from_triangles(surface_points(out, ugrid.node), face_corners(ugrid));
+    return;
+  }
+  DELOS_CHECK(ugrid.face_centre.size() == n_faces, ErrorKind::input, out.path,
+              ": the faces are no triangles and have no face_coordinates, so the points of the "
+              "Voronoi diagram are not known.");
+  std::vector<Vertex> centres = surface_points(out, ugrid.face_centre);
+  const Corners corners = node_faces(out.path, ugrid, centres);
+  const bool is_closed =
+      std::none_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
+  if (is_closed) out.mesh = mesh_from_triangles(std::move(centres), corners);
+}
+
+}  // namespace
+
+std::vector<std::string> grid_files(const std::string& path) {
+  std::error_code ignored;
+  if (!fs::is_directory(path, ignored)) return {path};
+  std::vector<std::string> out;
+  for (const auto& entry : fs::directory_iterator(path)) {
+    if (entry.path().extension() != ".nc") continue;
+    const netcdf::Reader file(entry.path().string());
+    if (is_mpas(file) || is_ugrid(file)) out.push_back(entry.path().string());
+  }
+  std::sort(out.begin(), out.end());
+  DELOS_CHECK(!out.empty(), ErrorKind::input, "the folder ", path,
+              " has no MPAS or UGRID file (*.nc).");
+  return out;
+}
+
+GridFile read_grid_file(Context& context, const std::string& path) {
+  const Phase phase(context.monitor, "read", 0);
+  GridFile out;
+  out.path = path;
+  bool has_c_grid = false;
+  {
+    const netcdf::Reader file(path);
+    has_c_grid = is_mpas(file);
+    DELOS_CHECK(has_c_grid || is_ugrid(file), ErrorKind::input, path,
+                ": neither MPAS (no cellsOnVertex) nor UGRID (no variable with cf_role = "
+                "mesh_topology). Give a grid file.");
+    out.origin = read_origin(file, has_c_grid ? "MPAS" : "UGRID");
+  }
+  if (has_c_grid) {
+    read_mpas_into(out);
+  } else {
+    read_ugrid_into(out);
+  }
+  return out;
+}
+
+Mesh mesh_from_triangles(std::vector<Vertex> vertices, const Corners& corners) {
+  struct Side {
+    Index low, high, tri, side;
+    bool operator<(const Side& other) const {
+      return std::tie(low, high, tri) < std::tie(other.low, other.high, other.tri);
+    }
+  };
+  Mesh mesh;
+  mesh.vertices = std::move(vertices);
+  mesh.triangles.resize(corners.size());
+  std::vector<Side> sides;
+  sides.reserve(3 * corners.size());
+  for (std::size_t tri = 0; tri < corners.size(); ++tri) {
+    mesh.triangles[tri] = {corners[tri], {kNone, kNone, kNone}};
+    for (int k = 0; k < 3; ++k) {
+      const Index a = corners[tri][static_cast<std::size_t>(next_corner(k))];
+      const Index b = corners[tri][static_cast<std::size_t>(previous_corner(k))];
+      DELOS_CHECK(std::min(a, b) >= 0 && std::max(a, b) < mesh.n_vertices(), ErrorKind::input,
+                  "triangle ", tri, " names a vertex that is not there.");
+      sides.push_back({std::min(a, b), std::max(a, b), static_cast<Index>(tri), k});
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+  for (std::size_t i = 0; i < sides.size(); i += 2) {
+    const bool is_pair = i + 1 < sides.size() && sides[i].low == sides[i + 1].low &&
+                         sides[i].high == sides[i + 1].high;
+    const bool is_triple = is_pair && i + 2 < sides.size() && sides[i].low == sides[i + 2].low &&
+                           sides[i].high == sides[i + 2].high;
+    DELOS_CHECK(is_pair && !is_triple, ErrorKind::input, "the edge of vertices ", sides[i].low,
+                " and ", sides[i].high, " has ",
+                is_pair ? "more than two triangles" : "one triangle",
+                ": the triangles do not close to a surface.");
+    const auto link = [&](const Side& from, const Side& to) {
+      mesh.triangle(from.tri).neighbour[static_cast<std::size_t>(from.side)] = to.tri;
+    };
+    link(sides[i], sides[i + 1]);
+    link(sides[i + 1], sides[i]);
+  }
+  return mesh;
+}
+
+}  // namespace delos

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Grids read back from files, as triangulation and C-grid.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/progress.hpp"
+#include "dual/grid.hpp"
+#include "lifecycle/inputs.hpp"
+#include "triangulation/mesh.hpp"
+
+namespace delos {
+
+/// What a file says about where it came from; empty texts where it says nothing.
+struct FileOrigin {
+  std::string format;  ///< "MPAS" or "UGRID"
+  std::string version, config, digest, history;
+  std::vector<InputRecord> inputs;
+  bool has_certificate = false;
+  double well_centred = 0.0, min_relative_edge = 0.0, min_dual_ratio = 0.0;
+};
+
+struct GridFile {
+  std::string path;
+  FileOrigin origin;
+  Ellipsoid surface;
+  LatitudeKind latitude = LatitudeKind::geodetic;
+  /// The triangulation; none for a grid with a border, which is not a closed surface.
+  std::optional<Mesh> mesh;
+  /// The C-grid as the file has it (MPAS); none for UGRID, which holds no C-grid tables.
+  std::optional<Grid> grid;
+};
+
+/// The grid files (MPAS and UGRID) of a folder in alphabetical order, or the path itself.
+/// Error(input) when there is none.
+std::vector<std::string> grid_files(const std::string& path);
+
+/// Reads an MPAS file, or UGRID triangles or Voronoi cells. Error(input) with the reason when the
+/// file is neither or its tables name what is not there.
+GridFile read_grid_file(Context& context, const std::string& path);
+
+/// Closes triangles over points into a mesh: finds the neighbours. Error(input), naming the edge,
+/// unless every edge has exactly one triangle on each side.
+Mesh mesh_from_triangles(std::vector<Vertex> vertices,
+                         const std::vector<std::array<Index, 3>>& corners);
+
+}  // namespace delos

@@ -1,0 +1,80 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: BSD-3-Clause
+# The program at work: mesh, check, info, plot on a small grid, quiet and not, and Ctrl-C.
+#   program_runs.sh PATH_OF_DELOS
+set -uo pipefail
+delos=$(realpath "$1")
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work"
+failures=0
+# must NAME COMMAND...: the command succeeds
+must() {
+  local name=$1
+  shift
+  if "$@"; then echo "ok     $name"; else failures=$((failures + 1)); echo "FAILED $name"; fi
+}
+cat >c.yaml <<'YAML'
+title: a small sphere
+sizing: {sources: [{type: constant, spacing: 500 km}]}
+refine: {tile_vertices: 500}
+output: {name: small}
+YAML
+
+must 'mesh' sh -c "'$delos' mesh c.yaml -o out >stdout.txt 2>stderr.txt"
+for file in mpas.nc ugrid_triangles.nc ugrid_cells.nc graph.info report.json report.txt; do
+  must "mesh writes small.$file" test -s "out/small.$file"
+done
+must 'nothing else is left in the folder' test "$(ls -A out | wc -l)" = 6
+must 'the summary says where the files are' grep -q 'out/small.mpas.nc' stdout.txt
+must 'each phase is one line when stderr is no terminal' test "$(grep -c '^refine$' stderr.txt)" = 1
+must 'no bar is drawn when stderr is no terminal' sh -c "! grep -q '\[#' stderr.txt"
+
+must 'quiet prints nothing' sh -c "'$delos' mesh c.yaml -o q --quiet >quiet.txt 2>&1 && test ! -s quiet.txt"
+must 'two runs write the same triangles' sh -c "
+  SOURCE_DATE_EPOCH=0 '$delos' mesh c.yaml -o a --quiet --threads 1 --set output.report=false &&
+  mv a first &&
+  SOURCE_DATE_EPOCH=0 '$delos' mesh c.yaml -o a --quiet --threads 1 --set output.report=false &&
+  cmp first/small.ugrid_triangles.nc a/small.ugrid_triangles.nc && cmp first/small.mpas.nc a/small.mpas.nc"
+must 'an override changes the grid' sh -c "
+  '$delos' mesh c.yaml -o b --quiet --set 'sizing.sources.0.spacing=700 km' &&
+  ! cmp -s out/small.graph.info b/small.graph.info"
+
+must 'check finds the grids sound' sh -c "'$delos' check out >check.txt"
+must 'check names every grid' test "$(grep -c ': sound' check.txt)" = 3
+must 'info shows digest and configuration' sh -c "'$delos' info out/small.mpas.nc >info.txt &&
+  grep -q '^digest *[0-9a-f]\{64\}$' info.txt && grep -q '500 km' info.txt"
+must 'check refuses what is no grid' sh -c "! '$delos' check c.yaml 2>check_error.txt && grep -q '^delos: error' check_error.txt"
+
+# A damaged table must be noticed: the last bytes of the file belong to some array.
+cp out/small.mpas.nc damaged.nc
+python3 - <<'PY'
+data = bytearray(open("damaged.nc", "rb").read())
+middle = len(data) // 2
+data[middle:middle + 4000] = bytes(4000)
+open("damaged.nc", "wb").write(data)
+PY
+"$delos" check damaged.nc >damaged.txt 2>&1
+status=$?
+must 'check notices a damaged file' test "$status" = 1 -o "$status" = 4
+
+if "$delos" plot out/small.mpas.nc -o pictures >plot.txt 2>plot_error.txt; then
+  must 'plot writes three pictures' test "$(ls pictures/*.png | wc -l)" = 3
+else
+  must 'plot without cairo says so' grep -q 'Build it with cairo' plot_error.txt
+fi
+
+# Ctrl-C during a long run: soon over, status 130, no file and no folder.
+"$delos" mesh c.yaml -o stopped --set 'sizing.sources.0.spacing=25 km' >/dev/null 2>stop.txt &
+pid=$!
+sleep 2
+kill -INT "$pid"
+begin=$(date +%s)
+wait "$pid"
+must 'Ctrl-C gives exit status 130' test $? = 130
+must 'Ctrl-C is obeyed within 20 s' test $(($(date +%s) - begin)) -lt 20
+must 'Ctrl-C leaves nothing' test ! -e stopped
+must 'Ctrl-C is one clear line' test "$(grep -c '^delos: error: stopped' stop.txt)" = 1
+
+echo "$failures failed"
+[ "$failures" = 0 ]

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/settings.hpp"
+
+#include <doctest/doctest.h>
+
+#include "core/error.hpp"
+
+using namespace delos;
+
+namespace {
+
+constexpr char kUniform[] = "sizing:\n  sources:\n    - {type: constant, spacing: 60 km}\n";
+
+Settings read(const std::string& yaml) { return read_settings(parse_config(yaml, "a.yaml"), "."); }
+
+/// The message of the Error(config) that the text gives.
+std::string error_of(const std::string& yaml) {
+  try {
+    static_cast<void>(read(yaml));
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::config);
+    return error.what();
+  }
+  return "no error";
+}
+
+bool has(const std::string& message, const std::string& part) {
+  CAPTURE(message);
+  CHECK(message.find(part) != std::string::npos);
+  return message.find(part) != std::string::npos;
+}
+
+std::string with_source(const std::string& source) {
+  return "sizing:\n  sources:\n    - " + source + "\n";
+}
+
+}  // namespace
+
+TEST_CASE("a uniform grid needs nothing but its spacing") {
+  const Settings settings = read(kUniform);
+  CHECK(settings.shape == "sphere");
+  CHECK(settings.surface.scale_m() == 6371220.0);
+  CHECK(settings.generator == Generator::frontal);
+  REQUIRE(settings.sizing.sources.size() == 1);
+  CHECK(std::get<ConstantSource>(settings.sizing.sources[0].source.source).spacing_m == 60000.0);
+  CHECK(settings.output.mpas);
+  CHECK_FALSE(settings.sizing.needs_bathymetry);
+  CHECK_FALSE(settings.require.well_centred);
+}
+
+TEST_CASE("an unknown key is refused with its line and the nearest valid key") {
+  const std::string message = error_of("sizing:\n  sorces: []\n");
+  has(message, "a.yaml:2 sizing.sorces: unknown key. Did you mean 'sources'?");
+  has(error_of(with_source("{type: constant, spacng: 60 km}")), "Did you mean 'spacing'?");
+  has(error_of(std::string(kUniform) + "threds: 2\n"), "a.yaml:4 threds: unknown key");
+}
+
+TEST_CASE("an unknown source or word is refused with those that exist") {
+  has(error_of(with_source("{type: cost, spacing: 60 km}")), "Did you mean 'coast'?");
+  has(error_of("surface: {shape: spere}\n"), "Did you mean 'sphere'?");
+  has(error_of(std::string(kUniform) + "output: {formats: [mpaz]}\n"), "Did you mean 'mpas'?");
+}
+
+TEST_CASE("a wrong type is refused") {
+  has(error_of("sizing: 3\n"), "a.yaml:1 sizing: a map of keys is needed here");
+  has(error_of("sizing: {sources: {type: constant}}\n"), "sizing.sources: a list is needed here");
+  has(error_of(with_source("{type: constant, spacing: [60 km]}")), "a single value is needed");
+  has(error_of(with_source("{type: constant, spacing: wide}")), "'wide' is not a length");
+  has(error_of(std::string(kUniform) + "threads: many\n"), "'many' is not a whole number");
+  has(error_of(std::string(kUniform) + "relax: {repair: perhaps}\n"), "neither true nor false");
+  has(error_of("- a list\n"), "a configuration is a map");
+}
+
+TEST_CASE("a number without its unit, or with a wrong one, is refused") {
+  has(error_of(with_source("{type: constant, spacing: 60}")),
+      "a.yaml:3 sizing.sources.0.spacing: '60' has no unit");
+  has(error_of(with_source("{type: constant, spacing: 60 s}")),
+      "is a time, but a length is needed");
+}
+
+TEST_CASE("values out of range are refused with the bound") {
+  has(error_of(with_source("{type: constant, spacing: 0 km}")), "0 km: must be > 0 m");
+  has(error_of(with_source("{type: constant, spacing: -5 km}")), "-5 km: must be > 0 m");
+  has(error_of("surface: {radius: 0 km}\n"), "surface.radius: 0 km: must be > 0 m");
+  has(error_of("surface: {shape: ellipsoid, radii: [1 km, -1 km, 1 km]}\n"),
+      "surface.radii: -1 km: must be > 0 m");
+  has(error_of("surface: {shape: ellipsoid, radii: [1 km, 1 km]}\n"), "has 2 values; 3 are needed");
+  has(error_of("surface: {shape: ellipsoid, radii: [100 km, 1 km, 1 km]}\n"), "more than 10 times");
+  has(error_of("sizing: {sources: [{type: constant, spacing: 60 km}], gradient_limit: 0}\n"),
+      "sizing.gradient_limit: 0: must be > 0");
+  has(error_of("sizing: {sources: [{type: constant, spacing: 60 km}],"
+               " clamp: {min: 60 km, max: 30 km}}\n"),
+      "30 km is below `min`");
+  has(error_of(std::string(kUniform) + "refine: {radius_edge: 0.5}\n"), "must be between 1 and 10");
+}
+
+TEST_CASE("a missing key says what to give") {
+  has(error_of("surface: {shape: sphere}\n"), "at least one source of spacing is needed");
+  has(error_of(with_source("{type: constant}")), "sizing.sources.0.spacing: missing");
+  has(error_of(with_source("{spacing: 60 km}")), "a source is a map with a `type`");
+  has(error_of(with_source("{type: raster}")), "sizing.sources.0.file: missing");
+}
+
+TEST_CASE("options that contradict each other are refused") {
+  has(error_of("surface: {radii: [1 km, 1 km, 1 km]}\n"), "does not go with shape: sphere");
+  has(error_of("generator: icosahedral\n" + std::string(kUniform)), "is not used by generator");
+  has(error_of("generator: icosahedral\n"), "give either subdivisions");
+  has(error_of(std::string(kUniform) + "spacing: 60 km\n"), "belongs to the generators");
+  has(error_of(with_source("{type: rossby}")), "give either radius_file");
+}
+
+TEST_CASE("broken YAML and a key given twice are refused with their line") {
+  has(error_of("sizing: [1, 2\nthreads: 3\n"), "this is not YAML");
+  has(error_of("threads: 1\nthreads: 2\n"), "a.yaml:2 threads: this key is given twice");
+}
+
+TEST_CASE("overrides replace, add and append, and name themselves in errors") {
+  ConfigNode root = parse_config(kUniform, "a.yaml");
+  override_config(root, "sizing.sources.0.spacing", "120 km");
+  override_config(root, "sizing.sources.1", "{type: constant, spacing: 90 km}");
+  override_config(root, "sizing.clamp.min", "30 km");
+  const Settings settings = read_settings(root, ".");
+  REQUIRE(settings.sizing.sources.size() == 2);
+  CHECK(std::get<ConstantSource>(settings.sizing.sources[0].source.source).spacing_m == 120000.0);
+  CHECK(settings.sizing.recipe.clamp->min_m == 30000.0);
+
+  CHECK_THROWS_WITH_AS(override_config(root, "sizing.sources.7.spacing", "1 km"),
+                       doctest::Contains("is no index of this list of 2"), Error);
+  override_config(root, "sizing.sources.0.spacing", "12");
+  CHECK_THROWS_WITH_AS(static_cast<void>(read_settings(root, ".")),
+                       doctest::Contains("override sizing.sources.0.spacing: '12' has no unit"),
+                       Error);
+}
+
+TEST_CASE("the effective text holds the defaults and reads back to the same text") {
+  const Settings settings = read(std::string(kUniform) + "threads: 3\noutput: {directory: d}\n");
+  CHECK(settings.text.find("radius_edge: 1.05") != std::string::npos);
+  CHECK(settings.text.find("6371.22 km") != std::string::npos);
+  CHECK(read(settings.text).text == settings.text);
+  // The grid depends neither on the threads nor on the folder.
+  CHECK(read(kUniform).text == settings.text);
+}
+
+TEST_CASE("baselines take subdivisions or a spacing") {
+  CHECK(read("generator: icosahedral\nsubdivisions: 16\n").subdivisions == 16);
+  // 240 km on the Earth: 10 240 cells.
+  CHECK(read("generator: icosahedral\nspacing: 240 km\n").subdivisions == 32);
+  CHECK(read("generator: cubed_sphere\nspacing: 240 km\n").subdivisions == 41);
+}
+
+TEST_CASE("every type of source is understood") {
+  const Settings settings = read(R"(
+sizing:
+  sources:
+    - {type: latitude_profile, latitude: [-90 deg, 90 deg], spacing: [30 km, 60 km]}
+    - {type: raster, file: h.nc, variable: h, units: km, missing: 60 km}
+    - {type: disc, centre: [-40 deg, 35 deg], radius: 100 km, spacing: 15 km, outside: 150 km}
+    - {type: box, west: 170 deg, east: -170 deg, south: -5 deg, north: 5 deg, spacing: 15 km, outside: 60 km}
+    - {type: polygon, file: r.geojson, feature: Baltic, spacing: 15 km, outside: 60 km, width: 3 deg}
+    - {type: slope, cells: 20, smooth: 30 km}
+    - {type: tidal, period: 12.42 h, cells: 100}
+    - {type: coast, spacing: 15 km, file: land.geojson}
+    - {type: rossby, climatology: levitus_climatology.cdf, cells: 0.5, optional: true}
+    - {type: eke, file: e.nc, form: threshold, threshold: 0.02 m2/s2, spacing_below: 60 km, spacing_above: 15 km}
+    - {type: ssh_variability, file: s.nc}
+  combine: {blend: [1, 1, 1, 1, 1, 1, 1, 1, 1, 1, 1]}
+  land: {spacing: 240 km}
+)");
+  const auto& sources = settings.sizing.sources;
+  REQUIRE(sources.size() == 11);
+  CHECK(settings.sizing.needs_bathymetry);
+  CHECK(settings.sizing.bathymetry.field.file == "auto");
+  CHECK(std::get<RasterSource>(sources[1].source.source).missing_m == 60000.0);
+  CHECK(sources[1].field.raster.file_units == "km");
+  CHECK(std::get<DiscSource>(sources[2].source.source).radius_rad ==
+        doctest::Approx(100.0 / 6371.22));
+  CHECK(sources[4].polygon_name == "Baltic");
+  CHECK(std::get<TidalSource>(sources[6].source.source).period_s == doctest::Approx(44712.0));
+  CHECK(std::get<RossbySource>(sources[8].source.source).factor == 2.0);
+  CHECK(sources[8].optional);
+  const auto& eke = std::get<EddySource>(sources[9].source.source);
+  CHECK(std::get<EddyThreshold>(eke.form).amplitude == doctest::Approx(0.2));
+  CHECK(std::get<EddySource>(sources[10].source.source).quantity == EddyQuantity::height_variance);
+}
