@@ -274,7 +274,9 @@ Range angles_of_triangle(const Grid& grid, std::int64_t vertex) {
   return range;
 }
 
-// As the converter of MPAS-Tools defines them; no model reads them.
+// As the converter of MPAS-Tools defines them, but for triangleAngleQuality, where the converter
+// gives different values to congruent triangles: here it is the smallest angle / the largest. No
+// model reads them.
 void MpasFile::add_diagnostics() {
   const Grid& grid = grid_;
   add<double>("cellQuality", cells_,

@@ -53,7 +53,7 @@ UgridMesh read_ugrid(const std::string& path);
 /// The lat-lon table of the spacing as a CF variable `spacing`(lat, lon) in metres; longitudes
 /// -180 <= lon < 180. Atomic.
 void write_spacing(const std::string& path, const LatLonField& spacing_m,
-                   const Provenance& provenance, netcdf::Format format = netcdf::Format::netcdf4);
+                   const Provenance& provenance, netcdf::Format format = netcdf::Format::cdf5);
 
 /// Bytes of the file that write_ugrid_triangles makes, within a few per cent.
 std::uint64_t ugrid_triangles_size_bytes(std::int64_t n_vertices, const UgridOptions& options = {});
