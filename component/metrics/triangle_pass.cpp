@@ -12,7 +12,7 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vec3 ball_centre(const Ellipsoid& surface, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 centre = surface.ball_centre(a, b, c);
-  return centre.allFinite() ? centre : surface.project(a);
+  return centre.allFinite() && centre.squaredNorm() > 0.0 ? centre : surface.project(a);
 }
 
 void measure_triangle(const Subject& subject, Index tri, Workspace& work, TriangleSums& sums) {
