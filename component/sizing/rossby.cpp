@@ -73,23 +73,29 @@ double buoyancy_frequency(const Water& upper, const Water& lower, double thickne
 }
 
 /// First-mode gravity-wave speed of the water column at a node (m/s); NaN with fewer than two
-/// valid levels. The column ends at the first missing level.
+/// valid levels. The column ends at the first missing level; the sea bed is somewhere above that,
+/// on average halfway, and the water down to there is taken as stratified as that just above.
 double wave_speed(const RasterStack& temperature, const RasterStack& salinity, std::size_t node) {
-  double integral = 0.0;
+  const std::vector<double>& depth = temperature.depth_m;
+  double integral = 0.0, frequency = 0.0;
   Water upper{};
   std::size_t n_valid = 0;
-  for (std::size_t k = 0; k < temperature.depth_m.size(); ++k) {
+  for (; n_valid < depth.size(); ++n_valid) {
+    const std::size_t k = n_valid;
     const double t = temperature.levels[k].values[node], s = salinity.levels[k].values[node];
     if (!std::isfinite(t) || !std::isfinite(s) || s < 0.0) break;
-    const Water water{s, t, kDbarPerMetre * temperature.depth_m[k]};
-    if (n_valid > 0) {
-      const double thickness = temperature.depth_m[k] - temperature.depth_m[k - 1];
-      integral += buoyancy_frequency(upper, water, thickness) * thickness;
+    const Water water{s, t, kDbarPerMetre * depth[k]};
+    if (k > 0) {
+      frequency = buoyancy_frequency(upper, water, depth[k] - depth[k - 1]);
+      integral += frequency * (depth[k] - depth[k - 1]);
     }
     upper = water;
-    ++n_valid;
   }
-  return n_valid >= 2 ? integral / kPi : std::numeric_limits<double>::quiet_NaN();
+  if (n_valid < 2) return std::numeric_limits<double>::quiet_NaN();
+  if (n_valid < depth.size()) {
+    integral += 0.5 * frequency * (depth[n_valid] - depth[n_valid - 1]);
+  }
+  return integral / kPi;
 }
 
 void check_stacks(const RasterStack& a, const RasterStack& b) {

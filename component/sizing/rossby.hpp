@@ -34,8 +34,8 @@ double potential_temperature(double salinity_psu, double temperature_degc, doubl
 /// doi:10.1175/1520-0485(1998)028<0433:GVOTFB>2.0.CO;2): with c = integral of N dz / pi,
 /// L1 = c / |f| away from the equator and sqrt(c / (2 beta)) near it, the smaller of the two, which
 /// is continuous. N^2 between two levels from their densities referenced adiabatically to the
-/// pressure midway. NaN where fewer than two levels are valid. Error(input) unless the stacks
-/// share their nodes.
+/// pressure midway; below the last valid level half the way to the next at the last N. NaN where
+/// fewer than two levels are valid. Error(input) unless the stacks share their nodes.
 Raster rossby_radius(parallel::Executor& exec, const RasterStack& temperature_degc,
                      const RasterStack& salinity_psu);
 

@@ -91,8 +91,9 @@ class Builder {
         exec_(context.exec),
         surface_(surface),
         recipe_(recipe),
-        combined_(make_table(recipe.resolution_rad > 0.0 ? recipe.resolution_rad
-                                                         : default_resolution_rad(recipe))) {}
+        combined_(make_table(recipe.resolution_rad > 0.0
+                                 ? recipe.resolution_rad
+                                 : default_resolution_rad(surface, recipe))) {}
 
   LatLonField build() {
     sample_elevation();
@@ -217,7 +218,7 @@ double constant_spacing_m(const SpacingRecipe& recipe) {
 
 }  // namespace
 
-double default_resolution_rad(const SpacingRecipe& recipe) {
+double default_resolution_rad(const Ellipsoid& surface, const SpacingRecipe& recipe) {
   double finest = kCoarsestDefault;
   bool uses_elevation = recipe.land_spacing_m.has_value();
   for (const SpacingSource& source : recipe.sources) {
@@ -227,7 +228,9 @@ double default_resolution_rad(const SpacingRecipe& recipe) {
   if (uses_elevation && recipe.elevation_m) {
     finest = std::min(finest, resolution_rad(*recipe.elevation_m));
   }
-  return std::max(finest, kFinestDefault);
+  const double least_m = recipe.clamp ? recipe.clamp->min_m : 0.0;
+  finest = std::max(finest, 0.5 * least_m / surface.scale_m());
+  return std::clamp(finest, kFinestDefault, kCoarsestDefault);
 }
 
 bool is_constant(const SpacingRecipe& recipe) {

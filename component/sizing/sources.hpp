@@ -38,7 +38,7 @@ struct SpacingSource {
 /// (before the clamp) and repeat the last three until the count is met.
 struct SpacingRecipe {
   LatitudeKind latitude = LatitudeKind::geodetic;
-  double resolution_rad = 0.0;  ///< of the table; 0 = default_resolution_rad(recipe)
+  double resolution_rad = 0.0;  ///< of the table; 0 = default_resolution_rad(surface, recipe)
   std::vector<SpacingSource> sources;
   std::shared_ptr<const Raster> elevation_m;  ///< positive up; for slope, tidal, coast and land
   CombineOptions combine;
@@ -50,8 +50,8 @@ struct SpacingRecipe {
 };
 
 /// The finest gridded source (elevation counts where used), at least as fine as 0.5 degree and
-/// not finer than 1/12 degree.
-double default_resolution_rad(const SpacingRecipe& recipe);
+/// not finer than 1/12 degree or half the clamp's least spacing.
+double default_resolution_rad(const Ellipsoid& surface, const SpacingRecipe& recipe);
 
 /// True when only constants are combined and no land value is given: no table is needed.
 bool is_constant(const SpacingRecipe& recipe);

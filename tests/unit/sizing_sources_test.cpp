@@ -196,11 +196,13 @@ TEST_CASE("the default resolution is that of the finest grid in use") {
   SpacingRecipe recipe;
   recipe.sources = {named(ConstantSource{60e3})};
   recipe.elevation_m = box_continent();
-  CHECK(default_resolution_rad(recipe) == doctest::Approx(0.5 * kRadPerDeg));
+  CHECK(default_resolution_rad(kEarth, recipe) == doctest::Approx(0.5 * kRadPerDeg));
   auto fine = std::make_shared<Raster>();
   for (int k = 0; k < 11; ++k) fine->lat_deg.push_back(0.25 * k);
   fine->lon_deg = fine->lat_deg;
   fine->values.assign(121, 1.0);
   recipe.sources.push_back(named(RasterSource{fine, 1.0, std::nullopt}));
-  CHECK(default_resolution_rad(recipe) == doctest::Approx(0.25 * kRadPerDeg));
+  CHECK(default_resolution_rad(kEarth, recipe) == doctest::Approx(0.25 * kRadPerDeg));
+  recipe.clamp = ClampOptions{100e3, 240e3};
+  CHECK(default_resolution_rad(kEarth, recipe) == doctest::Approx(50e3 / 6371220.0));
 }
