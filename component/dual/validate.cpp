@@ -293,6 +293,16 @@ double kite_error(const Grid& g, std::int64_t i) {
   return error / g.triangle_area_m2[at(i)];
 }
 
+bool lies_inside(const Grid& g, std::int64_t i) {
+  const Vec3& v = g.vertex_position[at(i)];
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Vec3& a = g.cell_position[at(g.cells_on_vertex[at(i)][j])];
+    const Vec3& b = g.cell_position[at(g.cells_on_vertex[at(i)][(j + 1) % 3])];
+    if (!(v.dot((a - v).cross(b - v)) > 0.0)) return false;
+  }
+  return true;
+}
+
 double kite_on_cell(const Grid& g, std::int64_t cell, Index vertex) {
   const auto& cells = g.cells_on_vertex[at(vertex)];
   const auto corner = std::find(cells.begin(), cells.end(), static_cast<Index>(cell));
@@ -311,11 +321,12 @@ double polygon_error(const Grid& g, std::int64_t i) {
 }
 
 void check_areas(Context& context, const Grid& g, double tolerance, Rules& rules) {
-  rules.check("kites are positive (every triangle is well centred)", g.n_vertices(), 0.0,
-              [&](std::int64_t i) {
-                const auto& kites = g.kite_area_m2[at(i)];
-                return unless(kites[0] > 0.0 && kites[1] > 0.0 && kites[2] > 0.0);
-              });
+  rules.check("kites are positive", g.n_vertices(), 0.0, [&](std::int64_t i) {
+    const auto& kites = g.kite_area_m2[at(i)];
+    return unless(kites[0] > 0.0 && kites[1] > 0.0 && kites[2] > 0.0);
+  });
+  rules.check("a vertex lies inside its triangle (well centred)", g.n_vertices(), 0.0,
+              [&](std::int64_t i) { return unless(lies_inside(g, i)); });
   rules.check("a kite is the area between vertex, edges and cell", g.n_vertices(), tolerance,
               [&](std::int64_t i) { return kite_error(g, i); });
   rules.check("the kites of a vertex sum to its triangle", g.n_vertices(), tolerance,

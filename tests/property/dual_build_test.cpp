@@ -47,7 +47,7 @@ TEST_CASE("a well-centred grid keeps every identity on every surface") {
   }
 }
 
-TEST_CASE("a mesh with obtuse triangles breaks no rule but that kites are positive") {
+TEST_CASE("a mesh with obtuse triangles breaks no rule but that of being well centred") {
   parallel::Executor exec(2);
   Monitor monitor;
   Context context{exec, monitor};
@@ -60,6 +60,7 @@ TEST_CASE("a mesh with obtuse triangles breaks no rule but that kites are positi
       for (const BrokenRule& rule : check_grid(context, grid, 1e-7)) {
         CAPTURE(to_string(rule));
         const bool is_expected = rule.rule.starts_with("kites are positive") ||
+                                 rule.rule.starts_with("a vertex lies inside") ||
                                  // Beyond 1 : .8 the flips are not quite the surface Delaunay.
                                  surface.radii().minCoeff() < 0.8;
         CHECK(is_expected);

@@ -49,6 +49,8 @@ TEST_CASE("check_grid names the rule and the element that a change breaks") {
       {"angle of an edge", 8, [](Grid& g) { g.edge_angle_rad[8] += 1e-6; }},
       {"cell distances", 8, [](Grid& g) { g.cell_distance_m[8] *= 1.0 + 1e-6; }},
       {"vertex distances", 8, [](Grid& g) { g.vertex_distance_m[8] *= 1.0 + 1e-6; }},
+      {"lies inside its triangle", 5,
+       [](Grid& g) { g.vertex_position[5] = g.vertex_position[60]; }},
       {"kites are positive", 3, [](Grid& g) { g.kite_area_m2[3][1] = -g.kite_area_m2[3][1]; }},
       {"a kite is the area", 3, [](Grid& g) { g.kite_area_m2[3][1] *= 1.0 + 1e-6; }},
       {"kites of a vertex", 3, [](Grid& g) { g.triangle_area_m2[3] *= 1.0 + 1e-6; }},
