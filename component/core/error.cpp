@@ -5,14 +5,22 @@ namespace delos {
 
 const char* to_string(ErrorKind kind) {
   switch (kind) {
-    case ErrorKind::config: return "config";
-    case ErrorKind::input: return "input";
-    case ErrorKind::output: return "output";
-    case ErrorKind::resource: return "resource";
-    case ErrorKind::state: return "state";
-    case ErrorKind::quality: return "quality";
-    case ErrorKind::cancelled: return "cancelled";
-    case ErrorKind::internal: return "internal";
+    case ErrorKind::config:
+      return "config";
+    case ErrorKind::input:
+      return "input";
+    case ErrorKind::output:
+      return "output";
+    case ErrorKind::resource:
+      return "resource";
+    case ErrorKind::state:
+      return "state";
+    case ErrorKind::quality:
+      return "quality";
+    case ErrorKind::cancelled:
+      return "cancelled";
+    case ErrorKind::internal:
+      return "internal";
   }
   return "unknown";
 }

@@ -46,16 +46,16 @@ std::string text(const Parts&... parts) {
 }  // namespace delos
 
 /// Throws Error(kind, text(...)) unless the condition holds. Always on.
-#define DELOS_CHECK(condition, kind, ...)                                  \
-  do {                                                                     \
+#define DELOS_CHECK(condition, kind, ...)                                     \
+  do {                                                                        \
     if (!(condition)) throw ::delos::Error(kind, ::delos::text(__VA_ARGS__)); \
   } while (false)
 
 /// Throws Error(internal) when an invariant of ours is broken; compiled out of release builds.
 #ifdef DELOS_ENABLE_ASSERTS
-#define DELOS_ASSERT(condition)                                                   \
-  do {                                                                            \
-    if (!(condition)) ::delos::assertion_failed(#condition, __FILE__, __LINE__);  \
+#define DELOS_ASSERT(condition)                                                  \
+  do {                                                                           \
+    if (!(condition)) ::delos::assertion_failed(#condition, __FILE__, __LINE__); \
   } while (false)
 #else
 #define DELOS_ASSERT(condition) static_cast<void>(0)

@@ -13,8 +13,9 @@ struct Digest::Impl {
 };
 
 Digest::Digest() : impl_(std::make_unique<Impl>()) {
-  DELOS_CHECK(impl_->context != nullptr && EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr) == 1,
-              ErrorKind::internal, "libcrypto can't start a SHA-256 digest.");
+  DELOS_CHECK(
+      impl_->context != nullptr && EVP_DigestInit_ex(impl_->context, EVP_sha256(), nullptr) == 1,
+      ErrorKind::internal, "libcrypto can't start a SHA-256 digest.");
 }
 
 Digest::~Digest() = default;

@@ -12,8 +12,16 @@
 namespace delos::parallel {
 
 struct Executor::Impl {
-  explicit Impl(int n) : n_threads(n), arena(n) {}
+  explicit Impl(int n) : n_threads(n), arena(n) {
+    // More threads than processors, as tests ask for, need oneTBB's leave; otherwise the number of
+    // its workers is none of ours.
+    if (n > tbb::info::default_concurrency()) {
+      oversubscription = std::make_unique<tbb::global_control>(
+          tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n));
+    }
+  }
   int n_threads;
+  std::unique_ptr<tbb::global_control> oversubscription;
   tbb::task_arena arena;
 };
 

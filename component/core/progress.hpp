@@ -16,10 +16,10 @@ namespace delos {
 
 /// State of the phase that runs now.
 struct Progress {
-  std::string phase;         ///< e.g. "refine"
-  std::int64_t done = 0;     ///< items finished
-  std::int64_t total = 0;    ///< items expected (an estimate; done may pass it), 0 = unknown
-  double elapsed_s = 0.0;    ///< since the phase began
+  std::string phase;       ///< e.g. "refine"
+  std::int64_t done = 0;   ///< items finished
+  std::int64_t total = 0;  ///< items expected (an estimate; done may pass it), 0 = unknown
+  double elapsed_s = 0.0;  ///< since the phase began
 };
 using ProgressCallback = std::function<void(const Progress&)>;
 

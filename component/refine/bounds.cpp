@@ -75,10 +75,10 @@ BoundViolations enforce_bounds(Context& context, const Ellipsoid& surface,
     for (const Index tri : todo) {
       if (!violation(options, mesh, tri).any()) continue;
       const auto& v = mesh.triangle(tri).vertex;
-      const Vec3 p = surface.ball_centre(mesh.position(v[0]), mesh.position(v[1]),
-                                         mesh.position(v[2]));
-      const Index vertex = insert_vertex(
-          mesh, surface, {p.x(), p.y(), p.z(), spacing.at(p.x(), p.y(), p.z())}, tri);
+      const Vec3 p =
+          surface.ball_centre(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]));
+      const Index vertex =
+          insert_vertex(mesh, surface, {p.x(), p.y(), p.z(), spacing.at(p.x(), p.y(), p.z())}, tri);
       if (vertex == kNone) continue;
       ++n_inserted;
       append_star(mesh, vertex, mesh.n_triangles() - 1, touched);

@@ -12,12 +12,12 @@ namespace delos {
 namespace {
 
 // Figures below are the best of scans at 1e5 vertices over smooth and bumpy spacings.
-constexpr double kLongestFront = 1.45;    // a side longer than this times h is no front
-constexpr double kLowestApex = 0.5;       // least height of an off-centre over its side, times h
-constexpr double kNearestCentre = 1e-3;   // a circumcentre nearer to the side (times h) is behind it
-constexpr double kNudgeReach = 1.3;       // cavity vertices nearer than this times h pull
-constexpr double kNudgeGain = 2.0;        // over their number: the length of the spring step
-constexpr double kNudgeLeast = 0.02;      // a shorter step (times h) is not worth a second cavity
+constexpr double kLongestFront = 1.45;   // a side longer than this times h is no front
+constexpr double kLowestApex = 0.5;      // least height of an off-centre over its side, times h
+constexpr double kNearestCentre = 1e-3;  // a circumcentre nearer to the side (times h) is behind it
+constexpr double kNudgeReach = 1.3;      // cavity vertices nearer than this times h pull
+constexpr double kNudgeGain = 2.0;       // over their number: the length of the spring step
+constexpr double kNudgeLeast = 0.02;     // a shorter step (times h) is not worth a second cavity
 constexpr double kFlattestBorder = 0.35;  // least height over a constraint side, times its length
 constexpr int kMaxCentreSweeps = 12;      // sweeps of circumcentre insertion; 3 are the most seen
 constexpr std::size_t kLanes = 8;
@@ -47,7 +47,10 @@ namespace {
 class TileFront {
  public:
   TileFront(const FrontInput& input, FrontWorkspace::Impl& scratch)
-      : input_(input), mesh_(scratch.mesh), cavity_(scratch.cavity), queue_(scratch.queue),
+      : input_(input),
+        mesh_(scratch.mesh),
+        cavity_(scratch.cavity),
+        queue_(scratch.queue),
         local_of_triangle_(scratch.local_of_triangle) {}
 
   TileMesh run(std::size_t tile) {
@@ -182,9 +185,9 @@ void TileFront::insert_centres() {
     for (Index tri = 0; tri < n_triangles(); ++tri) {
       if (!is_bad(mesh_.at(tri))) continue;
       const auto& v = mesh_.at(tri).vertex;
-      const Vec3 p = input_.surface.ball_centre(mesh_.vertex(v[0]).position(),
-                                                mesh_.vertex(v[1]).position(),
-                                                mesh_.vertex(v[2]).position());
+      const Vec3 p =
+          input_.surface.ball_centre(mesh_.vertex(v[0]).position(), mesh_.vertex(v[1]).position(),
+                                     mesh_.vertex(v[2]).position());
       if (!mesh_.conflicts(mesh_.at(tri), p) || !mesh_.find_cavity(tri, p, cavity_) ||
           !border_allows(p)) {
         continue;
@@ -208,8 +211,8 @@ bool TileFront::advance_front(Index tri) {
 
 // The shortest side that an accepted triangle or the tile's border is behind; -1 when none.
 int TileFront::frontal_side(const WorkTriangle& tri) const {
-  const std::array<const Vertex*, 3> v = {&mesh_.vertex(tri.vertex[0]), &mesh_.vertex(tri.vertex[1]),
-                                          &mesh_.vertex(tri.vertex[2])};
+  const std::array<const Vertex*, 3> v = {
+      &mesh_.vertex(tri.vertex[0]), &mesh_.vertex(tri.vertex[1]), &mesh_.vertex(tri.vertex[2])};
   const double h = (v[0]->spacing + v[1]->spacing + v[2]->spacing) * (kLongestFront / 3.0);
   double shortest = h * h;
   int side = -1;
@@ -261,8 +264,8 @@ bool TileFront::place_off_centre(const WorkTriangle& tri, std::size_t side, Vert
   const double farthest = centre_distance(tri, side, middle, inward);
   if (farthest < kNearestCentre * h_side) return false;
   const auto apex = [&](double h) {
-    const double height = std::sqrt(
-        std::max(h * h - quarter_square, kLowestApex * kLowestApex * h * h));
+    const double height =
+        std::sqrt(std::max(h * h - quarter_square, kLowestApex * kLowestApex * h * h));
     return surface.project(middle + std::min(height, farthest) * inward);
   };
   Vec3 q = apex(h_side);
@@ -398,9 +401,9 @@ void TileFront::queue_fronts() {
 TileMesh TileFront::take() {
   TileMesh out;
   out.skeleton_vertices = std::move(skeleton_vertices_);
-  out.inserted.assign(mesh_.vertices.begin() +
-                          static_cast<std::ptrdiff_t>(out.skeleton_vertices.size()),
-                      mesh_.vertices.end());
+  out.inserted.assign(
+      mesh_.vertices.begin() + static_cast<std::ptrdiff_t>(out.skeleton_vertices.size()),
+      mesh_.vertices.end());
   out.triangles.reserve(mesh_.triangles.size());
   for (const WorkTriangle& tri : mesh_.triangles) {
     Triangle t{tri.vertex, {}};

@@ -11,16 +11,18 @@
 namespace delos {
 namespace {
 
-constexpr double kMaxVertices = 7e8;        // 2 n - 4 triangles must fit 32-bit ids, with room
-constexpr std::int64_t kTilesPerTask = 1;   // a tile takes some milliseconds
+constexpr double kMaxVertices = 7e8;       // 2 n - 4 triangles must fit 32-bit ids, with room
+constexpr std::int64_t kTilesPerTask = 1;  // a tile takes some milliseconds
 
 void check_options(const RefineOptions& options) {
-  DELOS_CHECK(options.radius_edge >= 1.0, ErrorKind::config, "refine.radius_edge = ",
-              options.radius_edge, ": must be >= 1, below that refinement need not end.");
-  DELOS_CHECK(options.size_ratio > 1.0, ErrorKind::config, "refine.size_ratio = ",
-              options.size_ratio, ": must be > 1 (4/3 is the default).");
-  DELOS_CHECK(options.tile_vertices >= 500.0, ErrorKind::config, "refine.tile_vertices = ",
-              options.tile_vertices, ": must be >= 500 (12000 is the default).");
+  DELOS_CHECK(options.radius_edge >= 1.0, ErrorKind::config,
+              "refine.radius_edge = ", options.radius_edge,
+              ": must be >= 1, below that refinement need not end.");
+  DELOS_CHECK(options.size_ratio > 1.0, ErrorKind::config,
+              "refine.size_ratio = ", options.size_ratio, ": must be > 1 (4/3 is the default).");
+  DELOS_CHECK(options.tile_vertices >= 500.0, ErrorKind::config,
+              "refine.tile_vertices = ", options.tile_vertices,
+              ": must be >= 500 (12000 is the default).");
 }
 
 std::vector<TileMesh> refine_tiles(Context& context, const FrontInput& input) {
@@ -31,8 +33,8 @@ std::vector<TileMesh> refine_tiles(Context& context, const FrontInput& input) {
       context.exec, static_cast<std::int64_t>(n_tiles), kTilesPerTask, [&](std::int64_t tile) {
         context.monitor.check_cancelled();
         const auto t = static_cast<std::size_t>(tile);
-        tiles[t] = refine_tile(input, t,
-                               scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
+        tiles[t] =
+            refine_tile(input, t, scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
         context.monitor.advance(static_cast<std::int64_t>(tiles[t].inserted.size()));
       });
   return tiles;

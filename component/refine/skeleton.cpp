@@ -10,8 +10,8 @@
 namespace delos {
 namespace {
 
-constexpr int kSideSamples = 256;     // steps of the h-mass integral along a tile side
-constexpr int kMaxSplitRounds = 30;   // each halves the missing segments; 3 are the most seen
+constexpr int kSideSamples = 256;    // steps of the h-mass integral along a tile side
+constexpr int kMaxSplitRounds = 30;  // each halves the missing segments; 3 are the most seen
 
 // A side between two tile corners that no finer neighbour splits. Its points run from the corner
 // of lower id to the other, both included.
@@ -67,7 +67,8 @@ std::vector<double> equal_mass_cuts(const Ellipsoid& surface, const SpacingField
 }
 
 const Side& side_between(Builder& builder, Index a, Index b) {
-  const auto [entry, is_new] = builder.side_of_key.try_emplace(side_key(a, b), builder.sides.size());
+  const auto [entry, is_new] =
+      builder.side_of_key.try_emplace(side_key(a, b), builder.sides.size());
   if (is_new) {
     const Index low = std::min(a, b), high = std::max(a, b);
     const Vec3 from = builder.tiling.corners[static_cast<std::size_t>(low)];
@@ -102,7 +103,8 @@ Index find_side(const Mesh& mesh, const std::vector<Index>& at_vertex, Index a, 
   do {
     const Triangle& t = mesh.triangle(tri);
     const int k = corner_at(t, a);
-    if (t.vertex[static_cast<std::size_t>(next_corner(k))] == b) return 3 * tri + previous_corner(k);
+    if (t.vertex[static_cast<std::size_t>(next_corner(k))] == b)
+      return 3 * tri + previous_corner(k);
     tri = t.neighbour[static_cast<std::size_t>(next_corner(k))];
   } while (tri != first);
   return kNone;
@@ -164,14 +166,15 @@ void list_borders(const Builder& builder, const std::vector<Index>& first_of_sid
   for (const Tile& tile : builder.tiling.tiles) {
     std::vector<Index> border;
     for (std::size_t k = 0; k < 3; ++k) {
-      for_each_side(builder.tiling, tile.corner[k], tile.corner[(k + 1) % 3], [&](Index a, Index b) {
-        const std::size_t side = builder.side_of_key.at(side_key(a, b));
-        const auto n = static_cast<Index>(builder.sides[side].points.size()) - 1;
-        const Index first = first_of_side[side];
-        for (Index i = 0; i < n; ++i) {
-          border.push_back(a < b ? 2 * (first + i) : 2 * (first + n - 1 - i) + 1);
-        }
-      });
+      for_each_side(builder.tiling, tile.corner[k], tile.corner[(k + 1) % 3],
+                    [&](Index a, Index b) {
+                      const std::size_t side = builder.side_of_key.at(side_key(a, b));
+                      const auto n = static_cast<Index>(builder.sides[side].points.size()) - 1;
+                      const Index first = first_of_side[side];
+                      for (Index i = 0; i < n; ++i) {
+                        border.push_back(a < b ? 2 * (first + i) : 2 * (first + n - 1 - i) + 1);
+                      }
+                    });
     }
     skeleton.tile_half_segments.push_back(std::move(border));
   }

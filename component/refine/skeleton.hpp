@@ -14,9 +14,10 @@ namespace delos {
 /// 2 s + 1 back; the partner of half-segment x is x ^ 1.
 struct Skeleton {
   Mesh mesh;  ///< Delaunay; its vertices get the lowest ids of the finished mesh
-  std::vector<std::array<Index, 2>> segments;         ///< vertex ids
-  std::vector<std::vector<Index>> tile_half_segments; ///< the border of each tile, counter-clockwise
-  std::vector<std::vector<Index>> tile_triangles;     ///< triangles of `mesh` inside each tile
+  std::vector<std::array<Index, 2>> segments;  ///< vertex ids
+  std::vector<std::vector<Index>>
+      tile_half_segments;                          ///< the border of each tile, counter-clockwise
+  std::vector<std::vector<Index>> tile_triangles;  ///< triangles of `mesh` inside each tile
 };
 
 /// Half-segment along side k of a skeleton triangle, or kNone: result[3 * tri + k].

@@ -17,14 +17,14 @@ constexpr int kMaxLevel = 24;          // the icosahedron's side over 2^24 is be
 constexpr std::int64_t kMeasureGrain = 16;  // triangles a task: about 20 microseconds
 
 constexpr std::array<std::array<Index, 3>, 20> kFaces = {
-    {{0, 11, 5}, {0, 5, 1},  {0, 1, 7},   {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
+    {{0, 11, 5},  {0, 5, 1},  {0, 1, 7},  {0, 7, 10}, {0, 10, 11}, {1, 5, 9}, {5, 11, 4},
      {11, 10, 2}, {10, 7, 6}, {7, 1, 8},  {3, 9, 4},  {3, 4, 2},   {3, 2, 6}, {3, 6, 8},
-     {3, 8, 9},  {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
+     {3, 8, 9},   {4, 9, 5},  {2, 4, 11}, {6, 2, 10}, {8, 6, 7},   {9, 8, 1}}};
 
 std::vector<Vec3> icosahedron_corners() {
   const double g = 0.5 * (1.0 + std::sqrt(5.0));
-  return {{-1, g, 0}, {1, g, 0}, {-1, -g, 0}, {1, -g, 0}, {0, -1, g}, {0, 1, g},
-          {0, -1, -g}, {0, 1, -g}, {g, 0, -1}, {g, 0, 1}, {-g, 0, -1}, {-g, 0, 1}};
+  return {{-1, g, 0},  {1, g, 0},  {-1, -g, 0}, {1, -g, 0}, {0, -1, g},  {0, 1, g},
+          {0, -1, -g}, {0, 1, -g}, {g, 0, -1},  {g, 0, 1},  {-g, 0, -1}, {-g, 0, 1}};
 }
 
 using Triple = std::array<Vec3, 3>;
@@ -41,7 +41,9 @@ std::array<Triple, 4> split(const Ellipsoid& surface, const Triple& t) {
 double measure(const Ellipsoid& surface, const SpacingField& spacing, const Triple& t) {
   constexpr int n = kSamplesPerSide;
   std::array<Vec3, (n + 1) * (n + 2) / 2> point;
-  const auto id = [](int i, int j) { return static_cast<std::size_t>(i * (2 * n + 3 - i) / 2 + j); };
+  const auto id = [](int i, int j) {
+    return static_cast<std::size_t>(i * (2 * n + 3 - i) / 2 + j);
+  };
   for (int i = 0; i <= n; ++i) {
     for (int j = 0; j <= n - i; ++j) {
       point[id(i, j)] = surface.project((n - i - j) * t[0] + i * t[1] + j * t[2]);

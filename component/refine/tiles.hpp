@@ -18,8 +18,8 @@ struct Tile {
 };
 
 struct Tiling {
-  std::vector<Vec3> corners;  ///< surface points
-  std::vector<Tile> tiles;    ///< in the order of a walk through the icosahedral tree
+  std::vector<Vec3> corners;       ///< surface points
+  std::vector<Tile> tiles;         ///< in the order of a walk through the icosahedral tree
   double expected_vertices = 0.0;  ///< of the whole surface
 
   /// Corner in the middle of the side (a, b) where the tile beyond is split finer; kNone if not.

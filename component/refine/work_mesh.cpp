@@ -43,8 +43,8 @@ bool WorkMesh::find_cavity(Index seed, const Vec3& p, Cavity& cavity) const {
       stack_.push_back(base + previous_corner(entry));
       stack_.push_back(base + next_corner(entry));
     } else {
-      cavity.start.push_back(inner.vertex[static_cast<std::size_t>(
-          next_corner(static_cast<int>(side_of(code))))]);
+      cavity.start.push_back(
+          inner.vertex[static_cast<std::size_t>(next_corner(static_cast<int>(side_of(code))))]);
       cavity.link.push_back(link);
     }
   }

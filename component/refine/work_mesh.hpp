@@ -28,8 +28,8 @@ struct alignas(64) WorkTriangle {
 /// band only sends more tests to the exact predicate. squares_over_d = (|B|^2 + |C|^2) / d.
 inline double plane_bound(double ux, double uy, double uz, double squares_over_d) {
   constexpr double kUnitRoundoff = 0x1p-53;
-  return kUnitRoundoff * (16.0 * (std::abs(ux) + std::abs(uy) + std::abs(uz)) +
-                          8.0 * std::abs(squares_over_d));
+  return kUnitRoundoff *
+         (16.0 * (std::abs(ux) + std::abs(uy) + std::abs(uz)) + 8.0 * std::abs(squares_over_d));
 }
 
 inline constexpr Index triangle_of(Index link) { return link >> 2; }
@@ -57,8 +57,7 @@ class WorkMesh {
 
   /// Whether p, to become the next vertex, is inside the circumcircle of `tri`.
   bool conflicts(const WorkTriangle& tri, const Vec3& p) const {
-    const double s =
-        tri.plane[0] * p.x() + tri.plane[1] * p.y() + tri.plane[2] * p.z() - 1.0;
+    const double s = tri.plane[0] * p.x() + tri.plane[1] * p.y() + tri.plane[2] * p.z() - 1.0;
     if (s > tri.bound) return true;
     if (s < -tri.bound) return false;
     return conflicts_exactly(tri, p);

@@ -46,14 +46,11 @@ class Climber {
     return false;
   }
 
-  void spring(Index vertex) {
+  void spring(Index vertex, double floor) {
     const Vertex p = patch_.vertex(vertex);
     const Vertex q = moved(p, kSpringStep * spring_force(vertex));
-    double least = 1.0;
-    for_star(vertex, [&](const Vertex& from, const Vertex& to) {
-      least = std::min(least, area_length(q.position(), from.position(), to.position()));
-    });
-    if (least > 0.0) patch_.vertices[at(vertex)] = q;
+    const double after = star_score(vertex, q);
+    if (after >= floor || after > star_score(vertex, p)) patch_.vertices[at(vertex)] = q;
   }
 
  private:
@@ -61,8 +58,9 @@ class Climber {
   template <class Visit>
   void for_star(Index vertex, const Visit& visit) const {
     for (Index i = stars_.offsets[at(vertex)]; i < stars_.offsets[at(vertex) + 1]; ++i) {
-      const Triangle& t = patch_.triangle(stars_.triangles[at(i)]);
-      const int k = corner_at(t, vertex);
+      const Index corner = stars_.corners[at(i)];
+      const Triangle& t = patch_.triangle(corner / 3);
+      const int k = static_cast<int>(corner % 3);
       visit(patch_.vertex(t.vertex[at(next_corner(k))]),
             patch_.vertex(t.vertex[at(previous_corner(k))]));
     }
@@ -89,8 +87,8 @@ class Climber {
       const double squares = base.squaredNorm() + (p - a).squaredNorm() + (p - b).squaredNorm();
       const Vec3 area_gradient = 0.5 * (normal / twice_area).cross(base);
       const Vec3 squares_gradient = 2.0 * (2.0 * p - a - b);
-      sum += (area_gradient - (0.5 * twice_area / squares) * squares_gradient) *
-             (v.spacing / squares);
+      sum +=
+          (area_gradient - (0.5 * twice_area / squares) * squares_gradient) * (v.spacing / squares);
     });
     return sum;
   }
@@ -124,10 +122,11 @@ void hill_climb(const Ellipsoid& surface, const SpacingField& spacing, const Cli
   }
 }
 
-void relax_patch(const Ellipsoid& surface, const SpacingField& spacing, int sweeps, Patch& patch) {
+void relax_patch(const Ellipsoid& surface, const SpacingField& spacing,
+                 const SpringOptions& options, Patch& patch) {
   Climber climber(surface, spacing, patch);
-  for (int sweep = 0; sweep < sweeps; ++sweep) {
-    for (Index v = 0; v < patch.n_free; ++v) climber.spring(v);
+  for (int sweep = 0; sweep < options.sweeps; ++sweep) {
+    for (Index v = 0; v < patch.n_free; ++v) climber.spring(v, options.floor);
   }
 }
 

@@ -9,7 +9,7 @@
 namespace delos {
 
 struct ClimbOptions {
-  double target = 0.92;  ///< score above which a star is left alone
+  double target = 0.93;  ///< score above which a star is left alone
   int sweeps = 12;       ///< over all free vertices, at most
 };
 
@@ -17,8 +17,14 @@ struct ClimbOptions {
 void hill_climb(const Ellipsoid& surface, const SpacingField& spacing, const ClimbOptions& options,
                 Patch& patch);
 
-/// Spring sweeps over the free vertices, one after the other (Gauss-Seidel). A move that would
-/// turn a triangle over is not made.
-void relax_patch(const Ellipsoid& surface, const SpacingField& spacing, int sweeps, Patch& patch);
+struct SpringOptions {
+  int sweeps = 12;
+  /// A move is made only where the star's worst score stays above this, or rises.
+  double floor = 0.0;
+};
+
+/// Spring sweeps over the free vertices, one after the other (Gauss-Seidel).
+void relax_patch(const Ellipsoid& surface, const SpacingField& spacing,
+                 const SpringOptions& options, Patch& patch);
 
 }  // namespace delos

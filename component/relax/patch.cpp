@@ -11,8 +11,8 @@ namespace delos {
 namespace {
 
 const double kAreaLength = 4.0 / std::sqrt(3.0);  // 4 sqrt(3) / 3, with the mean of the squares
-constexpr double kShortSide = 1.30;  // 0.71 h scores 0.92
-constexpr double kLongSide = 1.30;   // 1.41 h scores 0.92
+constexpr double kShortSide = 1.18;               // 0.78 h scores 0.92
+constexpr double kLongSide = 1.18;                // 1.28 h scores 0.92
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -91,7 +91,8 @@ ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex
     Triangle t{};
     for (std::size_t k = 0; k < 3; ++k) {
       const Index free_id = local_id(free_vertices, source.vertex[k]);
-      t.vertex[k] = free_id != kNone ? free_id : out.patch.n_free + local_id(border, source.vertex[k]);
+      t.vertex[k] =
+          free_id != kNone ? free_id : out.patch.n_free + local_id(border, source.vertex[k]);
       t.neighbour[k] = local_id(out.origin.triangles, source.neighbour[k]);
       if (t.neighbour[k] == kNone) {
         t.neighbour[k] = ~static_cast<Index>(out.origin.border.size());
@@ -298,11 +299,12 @@ Stars stars(const Patch& patch) {
     }
   }
   for (std::size_t v = 1; v < out.offsets.size(); ++v) out.offsets[v] += out.offsets[v - 1];
-  out.triangles.resize(at(out.offsets.back()));
+  out.corners.resize(at(out.offsets.back()));
   std::vector<Index> next(out.offsets.begin(), out.offsets.end() - 1);
   for (Index t = 0; t < patch.n_triangles(); ++t) {
-    for (const Index v : patch.triangle(t).vertex) {
-      if (v < patch.n_free) out.triangles[at(next[at(v)]++)] = t;
+    for (int k = 0; k < 3; ++k) {
+      const Index v = patch.triangle(t).vertex[at(k)];
+      if (v < patch.n_free) out.corners[at(next[at(v)]++)] = 3 * t + k;
     }
   }
   return out;
@@ -359,7 +361,7 @@ void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch&
   }
 }
 
-void compact(Mesh& mesh, MeshEdits& edits) {
+std::vector<Index> compact(Mesh& mesh, MeshEdits& edits) {
   const auto survivors = [](std::size_t n, std::vector<Index>& dead) {
     std::vector<Index> new_id(n);
     for (const Index id : dead) new_id[at(id)] = kNone;
@@ -390,6 +392,7 @@ void compact(Mesh& mesh, MeshEdits& edits) {
     if (triangle_id[at(t)] != kNone) touched.push_back(triangle_id[at(t)]);
   }
   edits.touched_triangles = std::move(touched);
+  return vertex_id;
 }
 
 }  // namespace delos

@@ -17,7 +17,7 @@ namespace delos {
 double area_length(const Vec3& a, const Vec3& b, const Vec3& c);
 
 /// What repair and polish raise: the least of area_length, and of the shortest and the longest side
-/// over the spacing, scaled so that 0.92 stands for sides of 0.71 h and 1.41 h.
+/// over the spacing, scaled so that 0.92 stands for sides of 0.78 h and 1.28 h.
 double triangle_score(const Vertex& a, const Vertex& b, const Vertex& c);
 
 /// Ids are local: free vertices first, [0, n_free); the others lie on the border and stay.
@@ -75,10 +75,11 @@ int restore_delaunay(Patch& patch);
 bool remove_vertex(Patch& patch, Index vertex);
 /// Puts a free vertex into a triangle (split in three).
 void insert_vertex(Patch& patch, Index tri, const Vertex& vertex);
-/// Triangles around each free vertex: row i is the star of vertex i.
+/// Corners at each free vertex, as 3 * triangle + corner: row v is
+/// corners[offsets[v]] .. corners[offsets[v + 1] - 1], in order of triangle.
 struct Stars {
   std::vector<Index> offsets;
-  std::vector<Index> triangles;
+  std::vector<Index> corners;
 };
 Stars stars(const Patch& patch);
 
@@ -96,7 +97,8 @@ struct MeshEdits {
 void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch& mended,
                   MeshEdits& edits);
 
-/// Takes the dead vertices and triangles out of the arrays; the survivors keep their order.
-void compact(Mesh& mesh, MeshEdits& edits);
+/// Takes the dead vertices and triangles out of the arrays; the survivors keep their order. Returns
+/// the new id of every vertex, kNone for the dead.
+std::vector<Index> compact(Mesh& mesh, MeshEdits& edits);
 
 }  // namespace delos

@@ -12,10 +12,17 @@ namespace {
 
 constexpr std::int64_t kScanGrain = 16384;  // triangles a task: about half a millisecond
 constexpr std::int64_t kPatchGrain = 4;     // patches a task: some hundred microseconds
-constexpr int kMovesOnly = 2;               // rounds before the topology may change
-constexpr int kWiden = 6;                   // a patch gets one more ring every so many rounds
-constexpr int kFirstRings = 2;
-constexpr int kMostRings = 5;
+
+// The means in order of strength; index 0 is tried first.
+struct Means {
+  int rings;  // of free vertices around the triangle
+  bool change_topology;
+};
+constexpr std::array<Means, 5> kMeans = {{{1, false}, {2, false}, {2, true}, {3, true}, {4, true}}};
+constexpr std::size_t kMovesOnly = 2;  // the first means, which only move vertices
+// Where more than one triangle in so many is bad, the spacing itself is too rough for any mesh to
+// follow, and searching for better topologies would only take time.
+constexpr std::size_t kHostileShare = 50;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -60,8 +67,8 @@ class PatchPicker {
       add_ring(closure, ring_begin);
       ring_begin = n_free;
     }
-    const bool is_clear = std::all_of(closure.begin(), closure.end(),
-                                      [&](Index v) { return is_taken_[at(v)] == 0; });
+    const bool is_clear =
+        std::all_of(closure.begin(), closure.end(), [&](Index v) { return is_taken_[at(v)] == 0; });
     if (!is_clear) return {};
     for (const Index v : closure) is_taken_[at(v)] = 1;
     closure.resize(n_free);
@@ -93,38 +100,76 @@ class PatchPicker {
   std::vector<char> is_taken_;
 };
 
-struct RoundPlan {
-  double target;
-  int rings;
-  bool change_topology;
+// Means already tried in vain, by vertex; a triangle has those that all its corners have.
+using TriedMeans = std::vector<std::uint8_t>;
+
+std::size_t tried_at(const Mesh& mesh, const TriedMeans& tried, Index tri) {
+  const auto& v = mesh.triangle(tri).vertex;
+  return std::min({tried[at(v[0])], tried[at(v[1])], tried[at(v[2])]});
+}
+
+struct Job {
+  Index triangle;
+  Means means;
+  std::vector<Index> free_vertices;
+  ExtractedPatch patch;
+  bool is_better = false;
 };
 
-// Mends patches around the bad triangles; the edits are committed but not compacted.
-MeshEdits mend(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
-               const RoundPlan& plan, const std::vector<Index>& bad, Mesh& mesh) {
-  TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
+std::vector<Job> pick_jobs(const Mesh& mesh, const TriangleAtVertex& at_vertex,
+                           const TriedMeans& tried, std::size_t n_means,
+                           const std::vector<Index>& bad) {
   PatchPicker picker(mesh, at_vertex);
-  std::vector<std::vector<Index>> picked;
+  std::vector<Job> jobs;
   for (const Index tri : bad) {
-    std::vector<Index> free_vertices = picker.pick(tri, plan.rings);
-    if (!free_vertices.empty()) picked.push_back(std::move(free_vertices));
-  }
-  std::vector<ExtractedPatch> mended(picked.size());
-  std::vector<char> is_better(picked.size(), 0);
-  const auto n = static_cast<std::int64_t>(picked.size());
-  parallel::for_index(context.exec, n, kPatchGrain, [&](std::int64_t i) {
-    const auto p = static_cast<std::size_t>(i);
-    ExtractedPatch patch = extract_patch(mesh, at_vertex, picked[p]);
-    if (repair_patch(surface, spacing, {plan.target, plan.change_topology}, patch.patch)) {
-      mended[p] = std::move(patch);
-      is_better[p] = 1;
+    const std::size_t next = tried_at(mesh, tried, tri);
+    if (next >= n_means) continue;
+    std::vector<Index> free_vertices = picker.pick(tri, kMeans[next].rings);
+    if (!free_vertices.empty()) {
+      jobs.push_back({tri, kMeans[next], std::move(free_vertices), {}, false});
     }
-  });
-  MeshEdits edits;
-  for (std::size_t p = 0; p < mended.size(); ++p) {
-    if (is_better[p] != 0) commit_patch(mesh, at_vertex, mended[p], edits);
   }
+  return jobs;
+}
+
+void mend(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+          const RelaxOptions& options, const Mesh& mesh, const TriangleAtVertex& at_vertex,
+          std::vector<Job>& jobs) {
+  parallel::for_index(
+      context.exec, static_cast<std::int64_t>(jobs.size()), kPatchGrain, [&](std::int64_t i) {
+        Job& job = jobs[static_cast<std::size_t>(i)];
+        job.patch = extract_patch(mesh, at_vertex, job.free_vertices);
+        job.is_better = repair_patch(
+            surface, spacing, {options.target_quality, options.repair && job.means.change_topology},
+            job.patch.patch);
+      });
+}
+
+// Writes the better patches back and remembers what was tried where.
+MeshEdits commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_vertex,
+                 TriedMeans& tried) {
+  MeshEdits edits;
+  for (const Job& job : jobs) {
+    if (job.is_better) {
+      for (const Index v : job.patch.origin.vertices) tried[at(v)] = 0;
+      commit_patch(mesh, at_vertex, job.patch, edits);
+      continue;
+    }
+    const auto next = static_cast<std::uint8_t>(tried_at(mesh, tried, job.triangle) + 1);
+    for (const Index v : mesh.triangle(job.triangle).vertex) {
+      tried[at(v)] = std::max(tried[at(v)], next);
+    }
+  }
+  tried.resize(mesh.vertices.size(), 0);
   return edits;
+}
+
+void compact_all(Mesh& mesh, MeshEdits& edits, TriedMeans& tried) {
+  const std::vector<Index> new_id = compact(mesh, edits);
+  for (std::size_t v = 0; v < new_id.size(); ++v) {
+    if (new_id[v] != kNone) tried[at(new_id[v])] = tried[v];
+  }
+  tried.resize(mesh.vertices.size());
 }
 
 }  // namespace
@@ -133,21 +178,24 @@ void polish(Context& context, const Ellipsoid& surface, const SpacingField& spac
             const RelaxOptions& options, Mesh& mesh, RelaxReport& report) {
   std::vector<Index> bad = find_bad(context.exec, mesh, options.target_quality);
   const Phase phase(context.monitor, "polish", static_cast<std::int64_t>(bad.size()));
+  TriedMeans tried(mesh.vertices.size(), 0);
   for (int round = 0; round < options.polish_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
-    const RoundPlan plan{options.target_quality,
-                         std::min(kFirstRings + round / kWiden, kMostRings),
-                         options.repair && round >= kMovesOnly};
+    TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
+    const bool is_hostile = bad.size() * kHostileShare > mesh.triangles.size();
+    std::vector<Job> jobs =
+        pick_jobs(mesh, at_vertex, tried, is_hostile ? kMovesOnly : kMeans.size(), bad);
+    if (jobs.empty()) break;
+    mend(context, surface, spacing, options, mesh, at_vertex, jobs);
     const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
-    MeshEdits edits = mend(context, surface, spacing, plan, bad, mesh);
+    MeshEdits edits = commit(jobs, mesh, at_vertex, tried);
     report.n_inserted += static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
     report.n_removed += static_cast<std::int64_t>(edits.dead_vertices.size());
-    if (!edits.dead_vertices.empty()) compact(mesh, edits);
+    if (!edits.dead_vertices.empty()) compact_all(mesh, edits, tried);
     report.n_flips += restore_delaunay(mesh, surface, edits.touched_triangles);
-    const std::size_t n_bad_before = bad.size();
+    const auto n_bad_before = static_cast<std::int64_t>(bad.size());
     bad = find_bad(context.exec, mesh, options.target_quality);
-    context.monitor.advance(static_cast<std::int64_t>(n_bad_before) -
-                            static_cast<std::int64_t>(bad.size()));
+    context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.polish_rounds;
   }
   report.n_below_target = static_cast<std::int64_t>(bad.size());

@@ -6,8 +6,9 @@
 namespace delos {
 
 /// Each round picks bad triangles in ascending order, gives each a patch unless a patch of this
-/// round already holds a vertex of it, mends the patches in parallel and commits them in order.
-/// Patches grow, and vertices may come and go, where the smaller means have failed.
+/// round already holds a vertex of it, mends the patches in parallel and commits them in order. A
+/// triangle whose patch gained nothing gets stronger means the next time: vertices may come and
+/// go, then more rings; when the strongest have failed it is left, and counted in the report.
 void polish(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
             const RelaxOptions& options, Mesh& mesh, RelaxReport& report);
 

@@ -22,7 +22,7 @@ void check_options(const RelaxOptions& options) {
               "relax.polish_rounds = ", options.polish_rounds, ": must be in 0..100000.");
   DELOS_CHECK(options.target_quality > 0.0 && options.target_quality < 1.0, ErrorKind::config,
               "relax.target_quality = ", options.target_quality,
-              ": must be above 0 and below 1 (0.92 is the default).");
+              ": must be above 0 and below 1 (0.93 is the default).");
 }
 
 void relax_springs(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
@@ -33,7 +33,7 @@ void relax_springs(Context& context, const Ellipsoid& surface, const SpacingFiel
   NeighbourRows rows(context.exec, mesh);
   for (int round = 0; round < options.spring_rounds; ++round) {
     context.monitor.check_cancelled();
-    spring_round(context.exec, surface, spacing, rows, mesh.vertices, moved);
+    spring_round(context.exec, surface, spacing, rows, mesh, moved);
     std::swap(mesh.vertices, moved);
     ++report.spring_rounds;
     if (is_flip_round(round, options.spring_rounds - 1)) {

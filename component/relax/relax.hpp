@@ -13,11 +13,12 @@ namespace delos {
 struct RelaxOptions {
   /// Rounds of spring relaxation (Engwirda 2015, Eq. 2).
   int spring_rounds = 10;
-  /// Rounds of polish at most; they stop when every triangle meets the target.
-  int polish_rounds = 24;
+  /// Rounds of polish at most; they stop when every triangle meets the target or all means have
+  /// failed.
+  int polish_rounds = 100;
   /// Score that polish brings every triangle to where it can: area-length quality, and sides
-  /// between 0.71 h and 1.41 h at 0.92 (see triangle_score() in relax/patch.hpp).
-  double target_quality = 0.92;
+  /// between 0.78 h and 1.28 h at 0.92 (see triangle_score() in relax/patch.hpp).
+  double target_quality = 0.93;
   /// Whether polish may remove and insert vertices.
   bool repair = true;
 };

@@ -9,9 +9,11 @@
 namespace delos {
 namespace {
 
-constexpr double kLeastGain = 1e-3;     // of the worst score, for a mended patch to be taken
-constexpr int kSpringSweeps = 12;       // after a topological change: the patch finds a new balance
-constexpr int kClimbRounds = 3;         // hill climbing and flips in turn
+constexpr double kLeastGain = 2e-4;  // of the worst score, for a mended patch to be taken
+constexpr int kSpringSweeps = 12;    // after a topological change: the patch finds a new balance
+constexpr int kSmoothSweeps = 8;     // spread what climbing has pushed together
+constexpr double kMargin = 1e-3;     // climbed past the target, so that rounding does not undo it
+constexpr int kClimbRounds = 3;      // hill climbing and flips in turn
 
 class Repairer {
  public:
@@ -21,13 +23,15 @@ class Repairer {
   // Springs, flips, hill climbing; returns the worst score.
   double settle(Patch& patch, int spring_sweeps) const {
     if (spring_sweeps > 0) {
-      relax_patch(surface_, spacing_, spring_sweeps, patch);
+      relax_patch(surface_, spacing_, {spring_sweeps, 0.0}, patch);
       patch::restore_delaunay(patch);
     }
     for (int round = 0; round < kClimbRounds; ++round) {
-      hill_climb(surface_, spacing_, {options_.target, 12}, patch);
+      hill_climb(surface_, spacing_, {options_.target + kMargin, 12}, patch);
       if (patch::restore_delaunay(patch) == 0) break;
     }
+    relax_patch(surface_, spacing_, {kSmoothSweeps, options_.target}, patch);
+    patch::restore_delaunay(patch);
     return patch.worst().first;
   }
 

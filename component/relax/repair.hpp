@@ -9,7 +9,7 @@
 namespace delos {
 
 struct RepairOptions {
-  double target = 0.92;          ///< score that every triangle is to reach
+  double target = 0.93;          ///< score that every triangle is to reach
   bool change_topology = false;  ///< whether vertices may be removed and inserted
 };
 

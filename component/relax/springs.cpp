@@ -8,11 +8,15 @@
 namespace delos {
 namespace {
 
-constexpr double kTimeStep = 0.27;       // of Eq. 2 with beta = 1; springs of six neighbours are
-                                         // stable below 1/3, the best of a scan
-constexpr double kLongestStep = 0.2;     // of the spacing
-constexpr double kNoLength = 1e-300;     // keeps the empty places of a row (length 0) finite
+constexpr double kTimeStep = 0.27;    // of Eq. 2 with beta = 1; springs of six neighbours are
+                                      // stable below 1/3, the best of a scan
+constexpr double kLongestStep = 0.2;  // of the spacing
+constexpr double kNoLength = 1e-300;  // keeps the empty places of a row (length 0) finite
 constexpr std::int64_t kSpringGrain = 4096;  // vertices a task: about 0.2 ms
+
+constexpr double kFlattest =
+    0.1;  // twice the area over the mean squared side: an angle of 5 degrees
+constexpr std::int64_t kTurnGrain = 16384;  // triangles a task: about 0.2 ms
 
 constexpr std::size_t kWidth = NeighbourRows::kWidth;
 
@@ -55,11 +59,9 @@ Vec3 overflow_force(const std::vector<Vertex>& vertices, Index vertex,
   return force;
 }
 
-}  // namespace
-
-void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
-                  const NeighbourRows& rows, const std::vector<Vertex>& vertices,
-                  std::vector<Vertex>& moved) {
+void move_all(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
+              const NeighbourRows& rows, const std::vector<Vertex>& vertices,
+              std::vector<Vertex>& moved) {
   const bool has_overflow = !rows.overflow().empty();
   const auto n = static_cast<std::int64_t>(vertices.size());
   parallel::for_range(exec, n, kSpringGrain, [&](std::int64_t begin, std::int64_t end) {
@@ -80,6 +82,59 @@ void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const Spac
     spacing.evaluate(std::span(moved).subspan(static_cast<std::size_t>(begin),
                                               static_cast<std::size_t>(end - begin)));
   });
+}
+
+bool is_same_place(const Vertex& a, const Vertex& b) {
+  return a.x == b.x && a.y == b.y && a.z == b.z;
+}
+
+bool is_flat_or_turned(const Triangle& t, const std::vector<Vertex>& vertices) {
+  const Vec3 a = vertices[static_cast<std::size_t>(t.vertex[0])].position();
+  const Vec3 ab = vertices[static_cast<std::size_t>(t.vertex[1])].position() - a;
+  const Vec3 ac = vertices[static_cast<std::size_t>(t.vertex[2])].position() - a;
+  const double squares = ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm();
+  // |a| >= the least radius; the normal of a sound triangle is nearly parallel to a.
+  return !(ab.cross(ac).dot(a) > kFlattest / 3.0 * squares * std::sqrt(a.squaredNorm()));
+}
+
+// Triangles that a move has spoilt, ascending.
+std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
+                               const std::vector<Vertex>& moved) {
+  return parallel::reduce(
+      exec, mesh.n_triangles(), kTurnGrain, std::vector<Index>{},
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Index> found;
+        for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
+          const Triangle& t = mesh.triangle(tri);
+          if (!is_flat_or_turned(t, moved)) continue;
+          const bool has_moved = std::any_of(t.vertex.begin(), t.vertex.end(), [&](Index v) {
+            return !is_same_place(moved[static_cast<std::size_t>(v)],
+                                  mesh.vertices[static_cast<std::size_t>(v)]);
+          });
+          if (has_moved) found.push_back(tri);
+        }
+        return found;
+      },
+      [](std::vector<Index> all, const std::vector<Index>& more) {
+        all.insert(all.end(), more.begin(), more.end());
+        return all;
+      });
+}
+
+}  // namespace
+
+void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
+                  const NeighbourRows& rows, const Mesh& mesh, std::vector<Vertex>& moved) {
+  move_all(exec, surface, spacing, rows, mesh.vertices, moved);
+  // Each pass puts at least one more vertex back, so this ends; one pass is the rule.
+  for (std::vector<Index> spoilt = find_spoilt(exec, mesh, moved); !spoilt.empty();
+       spoilt = find_spoilt(exec, mesh, moved)) {
+    for (const Index tri : spoilt) {
+      for (const Index v : mesh.triangle(tri).vertex) {
+        moved[static_cast<std::size_t>(v)] = mesh.vertices[static_cast<std::size_t>(v)];
+      }
+    }
+  }
 }
 
 }  // namespace delos

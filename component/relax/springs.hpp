@@ -11,10 +11,10 @@ namespace delos {
 
 /// One round: x <- project(x + dt * sum_j (l_ij - h_ij) e_ij) for every vertex at once (Jacobi, so
 /// the order of evaluation can't matter), h_ij the mean of the two ends' spacings, the step limited
-/// to a fraction of h so that no triangle turns over. Spacings are looked up anew. Reads
-/// mesh.vertices, writes `moved` (same length).
+/// to a fraction of h. Spacings are looked up anew. A move that flattens a triangle or turns it
+/// over is taken back, so every triangle stays counter-clockwise. Reads mesh.vertices, writes
+/// `moved` (same length).
 void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
-                  const NeighbourRows& rows, const std::vector<Vertex>& vertices,
-                  std::vector<Vertex>& moved);
+                  const NeighbourRows& rows, const Mesh& mesh, std::vector<Vertex>& moved);
 
 }  // namespace delos

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/relax.hpp"
+
+#include <doctest/doctest.h>
+
+#include "metrics/quality.hpp"
+#include "refine/refine.hpp"
+#include "support/sample_spacings.hpp"
+#include "triangulation/validate.hpp"
+
+using namespace delos;
+
+namespace {
+
+Mesh relaxed(Context& context, const SampleSpacing& sample, RelaxReport& report) {
+  RefineReport refine_report;
+  Mesh mesh = refine(context, sample.surface, sample.spacing, {}, refine_report);
+  report = relax(context, sample.surface, sample.spacing, {}, mesh);
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("relaxed meshes are sound and Delaunay, and no triangle is obtuse where h is smooth") {
+  for (const auto& sample : sample_spacings()) {
+    CAPTURE(sample.name);
+    parallel::Executor exec(2);
+    Monitor monitor;
+    Context context{exec, monitor};
+    RelaxReport report;
+    const Mesh mesh = relaxed(context, sample, report);
+    CHECK(summary(validate(mesh, sample.surface)) == "");
+    const Quality quality = measure_quality(context, sample.surface, sample.spacing, mesh);
+    CHECK(quality.euler == 2);
+    CHECK(quality.n_non_delaunay == 0);
+    if (sample.is_smooth) {
+      CHECK(quality.n_obtuse == 0);
+      CHECK(report.n_below_target == 0);
+      CHECK(quality.area_length_min.value >= 0.93);
+      CHECK(quality.relative_edge_min.value >= 0.65);
+      CHECK(quality.dual_ratio_min.value > 0.0);
+    }
+  }
+}
+
+TEST_CASE("1, 2, 5 and 8 threads relax to the same bits") {
+  for (const auto& sample : sample_spacings()) {
+    CAPTURE(sample.name);
+    std::string first;
+    for (const int threads : {1, 2, 5, 8}) {
+      CAPTURE(threads);
+      parallel::Executor exec(threads);
+      Monitor monitor;
+      Context context{exec, monitor};
+      RelaxReport report;
+      const std::string bits = digest(relaxed(context, sample, report));
+      if (first.empty()) first = bits;
+      CHECK(bits == first);
+    }
+  }
+}
+
+TEST_CASE("relaxation raises the mean quality of a refined mesh") {
+  const Ellipsoid sphere;
+  const SpacingField spacing = SpacingField::constant(sphere, 0.03);
+  parallel::Executor exec(1);
+  Monitor monitor;
+  Context context{exec, monitor};
+  RefineReport refine_report;
+  Mesh mesh = refine(context, sphere, spacing, {}, refine_report);
+  const Quality before = measure_quality(context, sphere, spacing, mesh);
+  const RelaxReport report = relax(context, sphere, spacing, {}, mesh);
+  const Quality after = measure_quality(context, sphere, spacing, mesh);
+  CHECK(report.spring_rounds > 0);
+  CHECK(after.area_length_mean > before.area_length_mean);
+  CHECK(after.relative_edge_std < before.relative_edge_std);
+}

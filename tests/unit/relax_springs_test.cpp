@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/springs.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "triangulation/delaunay.hpp"
+#include "triangulation/seeds.hpp"
+
+using namespace delos;
+
+namespace {
+
+Mesh mesh_of(parallel::Executor& exec, const std::vector<Vec3>& points, double spacing) {
+  Mesh mesh = delaunay(exec, points);
+  for (Vertex& v : mesh.vertices) v.spacing = spacing;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("rows hold every neighbour once, beyond the eighth in the overflow") {
+  // A ring of twelve around the north pole, and the south pole: the poles have degree twelve.
+  std::vector<Vec3> points{{0, 0, 1}, {0, 0, -1}};
+  for (int i = 0; i < 12; ++i) {
+    points.emplace_back(std::cos(kPi * i / 6.0), std::sin(kPi * i / 6.0), 0.0);
+  }
+  parallel::Executor exec(1);
+  const Mesh mesh = mesh_of(exec, points, 0.5);
+  const NeighbourRows rows(exec, mesh);
+  REQUIRE(rows.overflow_of(0) != nullptr);
+  CHECK(rows.overflow_of(0)->neighbours.size() == 4);
+  CHECK(rows.overflow().size() == 2);
+  CHECK(rows.overflow_of(5) == nullptr);
+  const auto& row = rows.row(5);
+  CHECK(std::count(row.begin(), row.end(), 5) == 4);  // four neighbours, four empty places
+}
+
+TEST_CASE("an icosahedron with the right rest length stays where it is") {
+  parallel::Executor exec(1);
+  const std::vector<Vec3> points = icosahedral_points(1);
+  const Ellipsoid sphere;
+  const double edge = 4.0 / std::sqrt(10.0 + 2.0 * std::sqrt(5.0));
+  const Mesh mesh = mesh_of(exec, points, edge);
+  std::vector<Vertex> moved(mesh.vertices.size());
+  spring_round(exec, sphere, SpacingField::constant(sphere, edge), NeighbourRows(exec, mesh), mesh,
+               moved);
+  for (std::size_t v = 0; v < moved.size(); ++v) {
+    CHECK((moved[v].position() - mesh.vertices[v].position()).norm() < 1e-14);
+  }
+}
+
+TEST_CASE("springs pull the lengths of a disturbed grid together") {
+  parallel::Executor exec(1);
+  const Ellipsoid sphere;
+  std::vector<Vec3> points = icosahedral_points(8);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double angle = 0.37 * static_cast<double>(i);
+    points[i] = sphere.project(points[i] +
+                               0.02 * Vec3(std::cos(angle), std::sin(2 * angle), std::sin(angle)));
+  }
+  Mesh mesh = mesh_of(exec, points, 0.14);
+  const NeighbourRows rows(exec, mesh);
+  const SpacingField spacing = SpacingField::constant(sphere, 0.14);
+  // Spread of the edge lengths (their mean is set by the number of points).
+  const auto energy = [&] {
+    double sum = 0.0, squares = 0.0;
+    for (const Triangle& t : mesh.triangles) {
+      const double length = (mesh.position(t.vertex[0]) - mesh.position(t.vertex[1])).norm();
+      sum += length;
+      squares += length * length;
+    }
+    return squares - sum * sum / static_cast<double>(mesh.triangles.size());
+  };
+  const double before = energy();
+  std::vector<Vertex> moved(mesh.vertices.size());
+  for (int round = 0; round < 20; ++round) {
+    spring_round(exec, sphere, spacing, rows, mesh, moved);
+    std::swap(mesh.vertices, moved);
+  }
+  CHECK(energy() < 0.3 * before);
+  for (const Vertex& v : mesh.vertices) CHECK(std::abs(v.position().norm() - 1.0) < 1e-15);
+}
