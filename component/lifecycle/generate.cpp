@@ -24,8 +24,8 @@ struct Sized {
 
 /// The spacing; its table is kept only when an output needs it.
 Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe) {
-  const Phase phase(context.monitor, "size", 0);
   if (is_constant(recipe) && !settings.output.spacing) {
+    const Phase phase(context.monitor, "spacing", 0);
     return {build_spacing(context, settings.surface, recipe), std::nullopt};
   }
   LatLonField table_m = build_spacing_table(context, settings.surface, recipe);

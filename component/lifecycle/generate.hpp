@@ -30,9 +30,9 @@ struct GenerateScope {
   std::string directory;
 };
 
-/// Phases: read, size, refine, relax, quality, dual. The grid depends on the settings and the input
-/// files only, to the last bit. Error(resource) with the estimated count and memory before
-/// anything large is allocated; Error(quality) with the worst element's id and place when a
+/// Phases: read, spacing, refine, relax, polish, quality, dual. The grid depends on the settings
+/// and the input files only, to the last bit. Error(resource) with the estimated count and memory
+/// before anything large is allocated; Error(quality) with the worst element's id and place when a
 /// requirement is not met and `require.keep` is off.
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
 

@@ -72,11 +72,11 @@ std::string InputReader::path_of(const FileRequest& request) {
   const bool is_known = std::any_of(out_.files.begin(), out_.files.end(),
                                     [&](const InputRecord& file) { return file.path == path; });
   if (!is_known) {
+    context_.monitor.log(LogLevel::info, text("reading ", path));
     const InputFile file = with_key(request.where, [&] { return describe_input(path); });
     out_.files.push_back({file.path, file.sha256});
   }
   context_.monitor.check_cancelled();
-  context_.monitor.log(LogLevel::info, text("reading ", path));
   return path;
 }
 

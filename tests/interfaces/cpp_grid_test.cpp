@@ -110,7 +110,7 @@ TEST_CASE("progress names the phases, and the log is heard") {
   int n_messages = 0;
   options.log = [&](delos::LogLevel, const std::string&) { ++n_messages; };
   static_cast<void>(delos::generate(delos::Config::from_text(kSmall), options));
-  for (const char* const phase : {"read", "size", "refine", "quality", "dual"}) {
+  for (const char* const phase : {"read", "spacing", "refine", "quality", "dual"}) {
     CAPTURE(phase);
     CHECK(phases.count(phase) == 1);
   }
