@@ -45,7 +45,7 @@ void print_info(const GridFile& file) {
   }
   for (const InputRecord& input : origin.inputs) print("input", input.sha256 + "  " + input.path);
   print("history", origin.history);
-  if (!origin.config.empty()) std::printf("configuration:\n%s", origin.config.c_str());
+  if (!origin.config.empty()) std::printf("configuration:\n%s\n", origin.config.c_str());
   std::printf("\n");
 }
 

@@ -2,6 +2,7 @@
 #include "lifecycle/settings.hpp"
 
 #include <algorithm>
+#include <charconv>
 
 #include "io/data_files.hpp"
 #include "lifecycle/baselines.hpp"
@@ -82,10 +83,18 @@ void read_baseline(MapReader& root, const char* generator, Settings& out) {
   out.sizing.sources = {source};
 }
 
+/// A default as text that reads back to the same bits.
+std::string exact(double value) {
+  char out[32];
+  const auto [end, status] = std::to_chars(out, out + sizeof(out), value);
+  DELOS_ASSERT(status == std::errc());
+  return {out, end};
+}
+
 RefineOptions read_refine(MapReader keys) {
   RefineOptions out;
   const auto number = [&](const char* key, Bounds bounds, double fallback) {
-    return keys.quantity(key, Dimension::none, bounds, text(fallback).c_str());
+    return keys.quantity(key, Dimension::none, bounds, exact(fallback).c_str());
   };
   // Below 1 (30 degrees) refinement is not known to end; see the refine layer.
   out.radius_edge = number("radius_edge", Bounds::between(1.0, 10.0), out.radius_edge);
@@ -104,7 +113,7 @@ RelaxOptions read_relax(MapReader keys) {
   out.polish_rounds = rounds("polish_rounds", out.polish_rounds);
   // At 1 only equilateral triangles would do.
   out.target_quality = keys.quantity("target_quality", Dimension::none, Bounds::between(0.5, 0.99),
-                                     text(out.target_quality).c_str());
+                                     exact(out.target_quality).c_str());
   out.repair = keys.boolean("repair", out.repair);
   return out;
 }

@@ -171,7 +171,7 @@ void override_config(ConfigNode& root, const std::string& key, const std::string
 std::string to_yaml(const ConfigNode& root) {
   YAML::Emitter out;
   emit(out, root);
-  return std::string(out.c_str(), out.size()) + "\n";
+  return {out.c_str(), out.size()};
 }
 
 }  // namespace delos

@@ -33,7 +33,7 @@ ConfigNode parse_config(const std::string& yaml, const std::string& name);
 /// are made, a list index may be the list's length at most.
 void override_config(ConfigNode& root, const std::string& key, const std::string& value);
 
-/// YAML that parse_config reads back as an equal tree (but for `where`).
+/// YAML that parse_config reads back as an equal tree (but for `where`); no newline at its end.
 std::string to_yaml(const ConfigNode& root);
 
 }  // namespace delos

@@ -45,6 +45,7 @@ TEST_CASE("a uniform grid needs nothing but its spacing") {
   CHECK(std::get<ConstantSource>(settings.sizing.sources[0].source.source).spacing_m == 60000.0);
   CHECK(settings.output.mpas);
   CHECK_FALSE(settings.sizing.needs_bathymetry);
+  CHECK(settings.refine.size_ratio == RefineOptions{}.size_ratio);
   CHECK_FALSE(settings.require.well_centred);
 }
 
