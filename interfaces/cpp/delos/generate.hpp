@@ -27,8 +27,8 @@ struct GenerateOptions {
   /// does not depend on it, to the last bit.
   int threads = 0;
   /// Called from any thread, one call at a time, at most ten times a second.
-  std::function<void(const Progress&)> progress;
-  std::function<void(LogLevel, const std::string&)> log;
+  std::function<void(const Progress&)> progress = {};
+  std::function<void(LogLevel, const std::string&)> log = {};
   /// Set it from anywhere (a signal handler too) to stop: generate() then throws
   /// Error(cancelled) soon after.
   const std::atomic<bool>* cancel = nullptr;
