@@ -38,12 +38,12 @@ std::string two_digits(std::int64_t value) {
 
 struct NamedNumber {
   const char* name;
-  double Certificate::*value;
+  double FileCertificate::*value;
 };
 constexpr NamedNumber kCertificate[] = {
-    {"delos_well_centred", &Certificate::well_centred},
-    {"delos_min_relative_edge", &Certificate::min_relative_edge},
-    {"delos_min_dual_ratio", &Certificate::min_dual_ratio}};
+    {"delos_well_centred", &FileCertificate::well_centred},
+    {"delos_min_relative_edge", &FileCertificate::min_relative_edge},
+    {"delos_min_dual_ratio", &FileCertificate::min_dual_ratio}};
 
 struct NamedText {
   const char* name;
@@ -129,7 +129,7 @@ Provenance read_provenance(const netcdf::Reader& file) {
     if (line.size() < kHexDigits + 2) continue;
     provenance.inputs.push_back({line.substr(kHexDigits + 2), line.substr(0, kHexDigits)});
   }
-  Certificate certificate;
+  FileCertificate certificate;
   bool complete = true;
   for (const NamedNumber& item : kCertificate) {
     const auto value = file.number_attribute("", item.name);

@@ -16,7 +16,7 @@ struct InputFile {
 };
 
 /// What metrics found, for the file's reader to rely on.
-struct Certificate {
+struct FileCertificate {
   double well_centred = 0.0;       ///< fraction of triangles whose circumcentre is inside
   double min_relative_edge = 0.0;  ///< smallest edge length / wanted spacing
   double min_dual_ratio = 0.0;     ///< smallest dual / primal edge length
@@ -29,7 +29,7 @@ struct Provenance {
   std::vector<InputFile> inputs;  ///< every file that the grid depends on
   std::string history;            ///< see history_line(); the only place where a date stands
   std::string parent_id;          ///< MPAS: of the file that this one was derived from, if any
-  std::optional<Certificate> certificate;
+  std::optional<FileCertificate> certificate;
 };
 
 /// The input with the SHA-256 of its bytes. Error(input) when it can't be read.

@@ -8,6 +8,8 @@
 
 namespace delos {
 
+struct ConfigEntry;
+
 struct ConfigNode {
   enum class Kind { empty, scalar, list, map };
 
@@ -16,7 +18,7 @@ struct ConfigNode {
   std::string scalar;  ///< text of a scalar
   bool quoted = false;
   /// Of a map in the order of the file; the keys of a list are empty.
-  std::vector<std::pair<std::string, ConfigNode>> entries;
+  std::vector<ConfigEntry> entries;
 
   /// nullptr when this is no map or has no such key.
   const ConfigNode* find(std::string_view key) const;
@@ -24,6 +26,13 @@ struct ConfigNode {
   ConfigNode& put(const std::string& key, ConfigNode value);
 
   static ConfigNode text(std::string scalar, std::string where = {});
+};
+
+struct ConfigEntry {
+  std::string first;  ///< the key
+  ConfigNode second;
+  ConfigEntry(std::string key, ConfigNode value)
+      : first(std::move(key)), second(std::move(value)) {}
 };
 
 /// Error(config) that begins with "name:line" when the text is no YAML map or names a key twice.

@@ -111,12 +111,14 @@ Json certificate_json(const Certificate& c) {
 
 Json section_json(const ReportSection& section) {
   Json out = Json::object();
-  for (const auto& [key, value] : section.values) {
-    const std::string name = section.name + "." + key;
-    if (const auto* real = std::get_if<double>(&value)) {
+  for (const auto& entry : section.values) {
+    const std::string& key = entry.first;
+    std::string name = section.name;
+    name.append(".").append(key);
+    if (const auto* real = std::get_if<double>(&entry.second)) {
       out[key] = number(name, *real);
     } else {
-      std::visit([&](const auto& plain) { out[key] = plain; }, value);
+      std::visit([&](const auto& plain) { out[key] = plain; }, entry.second);
     }
   }
   return out;

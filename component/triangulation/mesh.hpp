@@ -20,8 +20,9 @@ struct alignas(32) Vertex {
 /// Corner k of a triangle is opposite to its side k, and neighbour k is across side k, which runs
 /// from corner k+1 to corner k+2 (mod 3).
 struct Triangle {
-  std::array<Index, 3> vertex;     ///< counter-clockwise seen from outside
-  std::array<Index, 3> neighbour;  ///< triangle across each side; kNone only while under construction
+  std::array<Index, 3> vertex;  ///< counter-clockwise seen from outside
+  std::array<Index, 3>
+      neighbour;  ///< triangle across each side; kNone only while under construction
 };
 
 struct Mesh {
@@ -30,7 +31,9 @@ struct Mesh {
 
   Index n_vertices() const { return static_cast<Index>(vertices.size()); }
   Index n_triangles() const { return static_cast<Index>(triangles.size()); }
-  Vec3 position(Index vertex) const { return vertices[static_cast<std::size_t>(vertex)].position(); }
+  Vec3 position(Index vertex) const {
+    return vertices[static_cast<std::size_t>(vertex)].position();
+  }
   const Triangle& triangle(Index tri) const { return triangles[static_cast<std::size_t>(tri)]; }
   Triangle& triangle(Index tri) { return triangles[static_cast<std::size_t>(tri)]; }
 };

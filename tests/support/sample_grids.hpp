@@ -33,7 +33,7 @@ inline Provenance provenance() {
   result.digest = std::string(64, 'a');
   result.inputs = {{"depth of the sea.nc", std::string(64, 'b')}, {"b.nc", std::string(64, 'c')}};
   result.history = history_line(0, "delos mesh a.yaml");
-  result.certificate = Certificate{1.0, 0.7, 0.25};
+  result.certificate = FileCertificate{1.0, 0.7, 0.25};
   return result;
 }
 

@@ -70,7 +70,9 @@ inline std::pair<std::vector<Vec3>, Corners> icosahedron() {
 
 /// Every triangle into four, `levels` times; points on the surface.
 inline Mesh bisected_icosahedron(const Ellipsoid& surface, int levels) {
-  auto [points, corners] = icosahedron();
+  auto solid = icosahedron();
+  std::vector<Vec3>& points = solid.first;
+  Corners& corners = solid.second;
   for (int level = 0; level < levels; ++level) {
     std::map<std::pair<Index, Index>, Index> middle;
     const auto halve = [&](Index a, Index b) {
