@@ -128,7 +128,11 @@ PolygonRing read_ring(const Json& positions, const std::string& where) {
 void add_polygon(const Json& rings, const std::string& where, PolygonSet& polygons) {
   DELOS_CHECK(rings.is_array(), ErrorKind::input, where,
               ": its coordinates are not an array of rings. Repair them.");
-  for (const Json& ring : rings) polygons.rings.push_back(read_ring(ring, where));
+  const Index polygon = polygons.rings.empty() ? 0 : polygons.rings.back().polygon + 1;
+  for (const Json& ring : rings) {
+    polygons.rings.push_back(read_ring(ring, where));
+    polygons.rings.back().polygon = polygon;
+  }
 }
 
 void add_geometry(const Json& geometry, const std::string& where, int nesting,

@@ -66,6 +66,9 @@ Json counts_json(const Report& report) {
   return out.json;
 }
 
+// Files need not say which spacing was asked for.
+bool knows_spacing(const Quality& q) { return q.spacing_max_m > 0.0; }
+
 Json quality_json(const Quality& q) {
   Object out;
   out.add("area_length_min", q.area_length_min).add("area_length_p01", q.area_length_p01);
@@ -73,9 +76,11 @@ Json quality_json(const Quality& q) {
   out.add("angle_min_deg", q.angle_min_deg).add("angle_max_deg", q.angle_max_deg);
   out.add("angle_mad_deg", q.angle_mad_deg);
   out.add("radius_edge_max", q.radius_edge_max).add("radius_edge_mean", q.radius_edge_mean);
-  out.add("relative_edge_mean", q.relative_edge_mean);
-  out.add("relative_edge_std", q.relative_edge_std);
-  out.add("relative_edge_min", q.relative_edge_min).add("relative_edge_max", q.relative_edge_max);
+  if (knows_spacing(q)) {
+    out.add("relative_edge_mean", q.relative_edge_mean);
+    out.add("relative_edge_std", q.relative_edge_std);
+    out.add("relative_edge_min", q.relative_edge_min).add("relative_edge_max", q.relative_edge_max);
+  }
   out.add("degree_5", q.degree_5).add("degree_6", q.degree_6).add("degree_7", q.degree_7);
   out.add("degree_other", q.degree_other).add("n_degree_5", q.n_degree_5);
   out.add("n_degree_6", q.n_degree_6).add("n_degree_7", q.n_degree_7);
@@ -186,9 +191,10 @@ void add_sizes(const Report& report, std::vector<std::string>& lines) {
   lines.push_back(counts);
   lines.push_back("also        " + grouped(q.n_edges) + " edges, " + grouped(q.n_triangles) +
                   " triangles");
-  lines.push_back("spacing     wanted " + length(q.spacing_min_m) + " to " +
-                  length(q.spacing_max_m) + "; edges " + length(q.edge_length_min_m) + " to " +
-                  length(q.edge_length_max_m));
+  lines.push_back("spacing     wanted " +
+                  (knows_spacing(q) ? length(q.spacing_min_m) + " to " + length(q.spacing_max_m)
+                                    : std::string("unknown")) +
+                  "; edges " + length(q.edge_length_min_m) + " to " + length(q.edge_length_max_m));
   lines.push_back(line("area        sums to the surface within %.1e; cells %.4g to %.4g km2",
                        q.total_area_error, q.cell_area_min_m2.value * 1e-6,
                        q.cell_area_max_m2.value * 1e-6));
@@ -208,8 +214,10 @@ void add_quality(const Quality& q, std::vector<std::string>& lines) {
   single("angle min", q.angle_min_deg, "60");
   single("angle max", q.angle_max_deg, "60");
   row("radius-edge", q.radius_edge_max, q.radius_edge_mean, "0.577");
-  row("edge/h min", q.relative_edge_min, q.relative_edge_mean, "1");
-  row("edge/h max", q.relative_edge_max, q.relative_edge_mean, "1");
+  if (knows_spacing(q)) {
+    row("edge/h min", q.relative_edge_min, q.relative_edge_mean, "1");
+    row("edge/h max", q.relative_edge_max, q.relative_edge_mean, "1");
+  }
   row("dual/edge", q.dual_ratio_min, q.dual_ratio_mean, "0.577");
   row("stagger", q.stagger_max, q.stagger_mean, "0");
   lines.push_back(line("  degree 5 / 6 / 7 / other: %.2f / %.2f / %.2f / %.4f %%",

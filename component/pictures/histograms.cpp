@@ -159,7 +159,7 @@ std::vector<Panel> panels(const Quality& quality) {
        30.0,
        90.0});
   all.push_back(
-      {"Edge length / wanted spacing",
+      {"Edge length / spacing",
        "",
        &quality.relative_edge,
        {{quality.relative_edge_min.value, label("min", quality.relative_edge_min.value, ""),

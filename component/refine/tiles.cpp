@@ -49,17 +49,25 @@ double measure(const Ellipsoid& surface, const SpacingField& spacing, const Trip
       point[id(i, j)] = surface.project((n - i - j) * t[0] + i * t[1] + j * t[2]);
     }
   }
-  double total = 0.0;
+  // Centres and (twice the) areas of the sub-triangles first, then all spacings in one batch.
+  std::array<Vertex, n * n> centre;
+  std::array<double, n * n> twice_area;
+  std::size_t count = 0;
   const auto add = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
-    const Vec3 centre = surface.project(p + q + r);
-    const double h = spacing.at(centre.x(), centre.y(), centre.z());
-    total += (q - p).cross(r - p).norm() / (h * h);
+    const Vec3 c = surface.project(p + q + r);
+    centre[count] = {c.x(), c.y(), c.z(), 0.0};
+    twice_area[count++] = (q - p).cross(r - p).norm();
   };
   for (int i = 0; i < n; ++i) {
     for (int j = 0; j < n - i; ++j) {
       add(point[id(i, j)], point[id(i + 1, j)], point[id(i, j + 1)]);
       if (j < n - i - 1) add(point[id(i + 1, j)], point[id(i + 1, j + 1)], point[id(i, j + 1)]);
     }
+  }
+  spacing.evaluate(centre);
+  double total = 0.0;
+  for (std::size_t i = 0; i < count; ++i) {
+    total += twice_area[i] / (centre[i].spacing * centre[i].spacing);
   }
   return total / std::sqrt(3.0);  // 2 / sqrt(3) times half the cross products
 }

@@ -361,7 +361,7 @@ void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch&
   }
 }
 
-std::vector<Index> compact(Mesh& mesh, MeshEdits& edits) {
+NewIds compact(Mesh& mesh, MeshEdits& edits) {
   const auto survivors = [](std::size_t n, std::vector<Index>& dead) {
     std::vector<Index> new_id(n);
     for (const Index id : dead) new_id[at(id)] = kNone;
@@ -387,12 +387,16 @@ std::vector<Index> compact(Mesh& mesh, MeshEdits& edits) {
   };
   mesh.vertices.resize(count(vertex_id));
   mesh.triangles.resize(count(triangle_id));
-  std::vector<Index> touched;
-  for (const Index t : edits.touched_triangles) {
-    if (triangle_id[at(t)] != kNone) touched.push_back(triangle_id[at(t)]);
+  renumber(triangle_id, edits.touched_triangles);
+  return {vertex_id, triangle_id};
+}
+
+void renumber(const std::vector<Index>& new_id, std::vector<Index>& ids) {
+  std::size_t n_kept = 0;
+  for (const Index id : ids) {
+    if (new_id[at(id)] != kNone) ids[n_kept++] = new_id[at(id)];
   }
-  edits.touched_triangles = std::move(touched);
-  return vertex_id;
+  ids.resize(n_kept);
 }
 
 }  // namespace delos

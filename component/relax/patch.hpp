@@ -98,7 +98,14 @@ void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch&
                   MeshEdits& edits);
 
 /// Takes the dead vertices and triangles out of the arrays; the survivors keep their order. Returns
-/// the new id of every vertex, kNone for the dead.
-std::vector<Index> compact(Mesh& mesh, MeshEdits& edits);
+/// the new ids by old id, kNone for the dead.
+struct NewIds {
+  std::vector<Index> vertices;
+  std::vector<Index> triangles;
+};
+NewIds compact(Mesh& mesh, MeshEdits& edits);
+
+/// Replaces ids by new ones; the dead are dropped.
+void renumber(const std::vector<Index>& new_id, std::vector<Index>& ids);
 
 }  // namespace delos

@@ -164,12 +164,23 @@ MeshEdits commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_
   return edits;
 }
 
-void compact_all(Mesh& mesh, MeshEdits& edits, TriedMeans& tried) {
-  const std::vector<Index> new_id = compact(mesh, edits);
-  for (std::size_t v = 0; v < new_id.size(); ++v) {
-    if (new_id[v] != kNone) tried[at(new_id[v])] = tried[v];
+void compact_all(Mesh& mesh, MeshEdits& edits, TriedMeans& tried, std::vector<Index>& bad) {
+  const NewIds new_id = compact(mesh, edits);
+  for (std::size_t v = 0; v < new_id.vertices.size(); ++v) {
+    if (new_id.vertices[v] != kNone) tried[at(new_id.vertices[v])] = tried[v];
   }
   tried.resize(mesh.vertices.size());
+  renumber(new_id.triangles, bad);
+}
+
+// Only triangles that were bad or have been written can be bad now.
+std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index> bad,
+                             const std::vector<Index>& written) {
+  bad.insert(bad.end(), written.begin(), written.end());
+  std::sort(bad.begin(), bad.end());
+  bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
+  std::erase_if(bad, [&](Index tri) { return score(mesh, tri) >= target; });
+  return bad;
 }
 
 }  // namespace
@@ -191,10 +202,11 @@ void polish(Context& context, const Ellipsoid& surface, const SpacingField& spac
     MeshEdits edits = commit(jobs, mesh, at_vertex, tried);
     report.n_inserted += static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
     report.n_removed += static_cast<std::int64_t>(edits.dead_vertices.size());
-    if (!edits.dead_vertices.empty()) compact_all(mesh, edits, tried);
-    report.n_flips += restore_delaunay(mesh, surface, edits.touched_triangles);
     const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    bad = find_bad(context.exec, mesh, options.target_quality);
+    if (!edits.dead_vertices.empty()) compact_all(mesh, edits, tried, bad);
+    std::vector<Index> written = edits.touched_triangles;
+    report.n_flips += restore_delaunay(mesh, surface, edits.touched_triangles, &written);
+    bad = still_bad(mesh, options.target_quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.polish_rounds;
   }

@@ -208,11 +208,16 @@ std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& po
   parallel::for_index(exec, like.n_rows(), kRowGrain, [&](std::int64_t j) {
     const auto row = static_cast<Index>(j);
     const double lat = 180.0 * row / like.n_lat_cells - 90.0;
-    for (const PolygonRing& ring : rings) {
-      const std::vector<double> lon = crossings(ring, std::clamp(lat, -kNearPole, kNearPole));
+    char* const row_inside = inside.data() + like.at(row, 0);
+    std::vector<char> of_one(static_cast<std::size_t>(like.n_lon), 0);
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      const std::vector<double> lon = crossings(rings[r], std::clamp(lat, -kNearPole, kNearPole));
       for (std::size_t k = 0; k + 1 < lon.size(); k += 2) {
-        flip_columns(lon[k], lon[k + 1], like.n_lon, inside.data() + like.at(row, 0));
+        flip_columns(lon[k], lon[k + 1], like.n_lon, of_one.data());
       }
+      if (r + 1 < rings.size() && rings[r + 1].polygon == rings[r].polygon) continue;
+      for (std::size_t i = 0; i < of_one.size(); ++i) row_inside[i] |= of_one[i];
+      std::fill(of_one.begin(), of_one.end(), 0);
     }
   });
   return inside;

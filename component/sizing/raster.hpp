@@ -30,9 +30,11 @@ struct RasterStack {
 /// A closed lon-lat ring; longitudes are continued across the date line.
 struct PolygonRing {
   std::vector<double> lon_deg, lat_deg;
+  Index polygon = 0;  ///< the polygon that it bounds, from outside or as a hole
 };
 
-/// Polygons with holes (even-odd rule over all rings).
+/// Polygons with holes: even-odd over the rings of one polygon, and the union of the polygons, which
+/// may overlap. Rings of one polygon stand together.
 struct PolygonSet {
   std::string source;
   std::vector<PolygonRing> rings;

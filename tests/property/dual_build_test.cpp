@@ -86,7 +86,7 @@ TEST_CASE("the grid has the same bits for any number of threads") {
   }
 }
 
-TEST_CASE("longitudes lie in [0, 2 pi), poles and date line included") {
+TEST_CASE("longitudes lie from 0 to 2 pi, poles and date line included") {
   parallel::Executor exec(1);
   Monitor monitor;
   Context context{exec, monitor};

@@ -28,7 +28,7 @@ TEST_CASE("hash64 tells seeds, ids and rounds apart") {
   CHECK(seen.size() == 20 * 100 * 20);
 }
 
-TEST_CASE("uniform01 fills [0, 1) evenly") {
+TEST_CASE("uniform01 fills the unit interval evenly") {
   std::array<int, 10> counts{};
   for (std::uint64_t id = 0; id < 100000; ++id) {
     const double u = uniform01(3, id);

@@ -85,7 +85,7 @@ TEST_CASE("a box may cross the date line and measures distance on the sphere") {
   CHECK(value_at(field, 0.0, 85.0) == doctest::Approx(15e3 + 135e3 * 0.5).epsilon(0.01));
 }
 
-TEST_CASE("polygons follow the even-odd rule, over the date line and round a pole") {
+TEST_CASE("rings of a polygon follow the even-odd rule, polygons are united") {
   parallel::Executor exec(2);
   const LatLonField like = make_table(1.0 * kRadPerDeg);
   const auto inside = [&](const PolygonSet& set, double lon, double lat) {
@@ -102,7 +102,11 @@ TEST_CASE("polygons follow the even-odd rule, over the date line and round a pol
   holed.rings.push_back(square(-5.5, 5.5, -5.5, 5.5).rings[0]);
   CHECK(inside(holed, 10, 0));
   CHECK_FALSE(inside(holed, 0, 0));
-  const PolygonSet cap{"cap", {{{-180, -90, 0, 90, 179}, {-70, -65, -70, -65, -70}}}};
+  PolygonSet overlapping = holed;
+  overlapping.rings[1].polygon = 1;  // no hole but a polygon of its own
+  CHECK(inside(overlapping, 10, 0));
+  CHECK(inside(overlapping, 0, 0));
+  const PolygonSet cap{"cap", {{{-180, -90, 0, 90, 179}, {-70, -65, -70, -65, -70}, 0}}};
   CHECK(inside(cap, 37, -90));
   CHECK(inside(cap, 179.0, -80));
   CHECK_FALSE(inside(cap, 37, -50));
