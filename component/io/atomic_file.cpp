@@ -61,7 +61,7 @@ void check_target(const fs::path& target) {
 fs::path reserve_temporary(const fs::path& target) {
   const fs::path folder = folder_of(target);
   for (int attempt = 0;; ++attempt) {
-    const fs::path candidate =
+    fs::path candidate =
         folder / text(".", target.filename().string(), ".", ::getpid(), "-", attempt, ".part");
     const int handle = ::open(candidate.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0666);
     if (handle >= 0) {

@@ -67,6 +67,7 @@ std::string find_data_file(const std::string& name, const std::string& folder,
   const std::vector<fs::path> candidates = places(name, folder, data_path);
   if (const auto found = first_existing(candidates)) return found->string();
   std::vector<std::string> looked;
+  looked.reserve(candidates.size());
   for (const fs::path& path : candidates) looked.push_back(path.string());
   throw Error(ErrorKind::input, text(name, ": no such file. Looked for: ", join_names(looked), ". ",
                                      package_hint(name)));

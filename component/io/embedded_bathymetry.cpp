@@ -15,6 +15,7 @@ asm(".pushsection .rodata\n"
     "\"\n"
     ".popsection\n");
 extern "C" {
+// NOLINTNEXTLINE(readability-identifier-naming): a symbol of the assembler's
 __attribute__((visibility("hidden"))) extern const unsigned char delos_bathymetry_bytes[];
 }
 

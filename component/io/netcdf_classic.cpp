@@ -21,7 +21,7 @@ class Header {
   explicit Header(const std::string& path) : in_(path, std::ios::binary) {
     std::array<char, 4> magic{};
     read(magic.data(), magic.size());
-    version_ = magic[3];
+    version_ = static_cast<unsigned char>(magic[3]);
   }
 
   std::uint64_t integer(int n_bytes) {

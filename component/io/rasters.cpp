@@ -50,8 +50,10 @@ const netcdf::Variable& only_field(const netcdf::Reader& file) {
   }
   const auto& candidates = flat.empty() ? deep : flat;
   std::vector<std::string> names;
+  names.reserve(candidates.size());
   for (const auto* candidate : candidates) names.push_back(candidate->shape_text());
   std::vector<std::string> others;
+  others.reserve(file.variables().size());
   for (const auto& variable : file.variables()) others.push_back(variable.shape_text());
   DELOS_CHECK(!candidates.empty(), ErrorKind::input, file.path(),
               ": no variable on a latitude and a longitude. It has: ", join_names(others),

@@ -384,6 +384,7 @@ void write_spacing(const std::string& path, const LatLonField& spacing_m,
     write_provenance(file, provenance);
     file.end_definitions();
     std::vector<double> degrees;
+    degrees.reserve(static_cast<std::size_t>(spacing_m.n_rows()));
     for (Index row = 0; row < spacing_m.n_rows(); ++row) {
       degrees.push_back(180.0 * row / spacing_m.n_lat_cells - 90.0);
     }

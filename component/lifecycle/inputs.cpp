@@ -67,7 +67,7 @@ auto with_key(const std::string& where, Read&& read) {
 }
 
 std::string InputReader::path_of(const FileRequest& request) {
-  const std::string path = with_key(
+  std::string path = with_key(
       request.where, [&] { return find_data_file(request.file, settings_.folder, search_path_); });
   const bool is_known = std::any_of(out_.files.begin(), out_.files.end(),
                                     [&](const InputRecord& file) { return file.path == path; });

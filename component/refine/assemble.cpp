@@ -56,10 +56,13 @@ Mesh assemble(parallel::Executor& exec, Skeleton& skeleton, std::vector<TileMesh
         const Index v = tri.vertex[k], n = tri.neighbour[k];
         tri.vertex[k] =
             v < n_shared ? source.skeleton_vertices[static_cast<std::size_t>(v)] : v + vertex_shift;
-        tri.neighbour[k] =
-            n >= 0 ? n + triangle_shift
-                   : at_half[static_cast<std::size_t>(
-                         skeleton.tile_half_segments[t][static_cast<std::size_t>(~n)] ^ 1)];
+        if (n >= 0) {
+          tri.neighbour[k] = n + triangle_shift;
+        } else {
+          const Index slot = ~n;
+          const Index beyond = skeleton.tile_half_segments[t][static_cast<std::size_t>(slot)] ^ 1;
+          tri.neighbour[k] = at_half[static_cast<std::size_t>(beyond)];
+        }
       }
       mesh.triangles[static_cast<std::size_t>(first_triangle[t]) + i] = tri;
     }

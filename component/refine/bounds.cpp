@@ -65,9 +65,9 @@ void append_star(const Mesh& mesh, Index vertex, Index at_vertex, std::vector<In
 
 }  // namespace
 
-BoundViolations enforce_bounds(Context& context, const Ellipsoid& surface,
-                               const SpacingField& spacing, const RefineOptions& options,
-                               Mesh& mesh, std::int64_t& n_inserted) {
+BoundsReport enforce_bounds(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+                            const RefineOptions& options, Mesh& mesh) {
+  BoundsReport report;
   std::vector<Index> todo = find_violations(context.exec, options, mesh);
   for (int round = 0; round < kMaxRounds && !todo.empty(); ++round) {
     context.monitor.check_cancelled();
@@ -80,20 +80,19 @@ BoundViolations enforce_bounds(Context& context, const Ellipsoid& surface,
       const Index vertex =
           insert_vertex(mesh, surface, {p.x(), p.y(), p.z(), spacing.at(p.x(), p.y(), p.z())}, tri);
       if (vertex == kNone) continue;
-      ++n_inserted;
+      ++report.n_inserted;
       append_star(mesh, vertex, mesh.n_triangles() - 1, touched);
     }
     std::sort(touched.begin(), touched.end());
     touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
     todo = std::move(touched);
   }
-  BoundViolations left;
   for (const Index tri : find_violations(context.exec, options, mesh)) {
     const Violation broken = violation(options, mesh, tri);
-    left.n_over_size += broken.over_size ? 1 : 0;
-    left.n_over_radius_edge += broken.over_radius_edge ? 1 : 0;
+    report.n_over_size += broken.over_size ? 1 : 0;
+    report.n_over_radius_edge += broken.over_radius_edge ? 1 : 0;
   }
-  return left;
+  return report;
 }
 
 }  // namespace delos

@@ -5,17 +5,16 @@
 
 namespace delos {
 
-struct BoundViolations {
-  std::int64_t n_over_size = 0;
+struct BoundsReport {
+  std::int64_t n_inserted = 0;
+  std::int64_t n_over_size = 0;  ///< triangles left that break a bound
   std::int64_t n_over_radius_edge = 0;
 };
 
 /// Inserts ball centres (Chew 1993; Engwirda 2015, section 2.2) until every triangle meets
 /// radius-edge <= options.radius_edge and size <= options.size_ratio * spacing, or a fixed number
-/// of rounds has passed. Returns what is left (nothing on an admissible spacing) and counts the
-/// insertions.
-BoundViolations enforce_bounds(Context& context, const Ellipsoid& surface,
-                               const SpacingField& spacing, const RefineOptions& options,
-                               Mesh& mesh, std::int64_t& n_inserted);
+/// of rounds has passed. Nothing is left over on an admissible spacing.
+BoundsReport enforce_bounds(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
+                            const RefineOptions& options, Mesh& mesh);
 
 }  // namespace delos

@@ -62,11 +62,10 @@ Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spac
   // of the tile kernel differs a little from the surface Delaunay triangulation everywhere.
   report.n_flips = surface.is_sphere() ? restore_delaunay(mesh, surface, side_triangles)
                                        : restore_delaunay_everywhere(context.exec, mesh, surface);
-  std::int64_t n_enforced = 0;
-  const BoundViolations left = enforce_bounds(context, surface, spacing, options, mesh, n_enforced);
+  const BoundsReport bounds = enforce_bounds(context, surface, spacing, options, mesh);
   report.n_inserted = mesh.n_vertices() - report.n_skeleton_vertices;
-  report.n_over_size = left.n_over_size;
-  report.n_over_radius_edge = left.n_over_radius_edge;
+  report.n_over_size = bounds.n_over_size;
+  report.n_over_radius_edge = bounds.n_over_radius_edge;
   return mesh;
 }
 

@@ -53,7 +53,8 @@ std::vector<double> equal_mass_cuts(const Ellipsoid& surface, const SpacingField
     previous = next;
   }
   const double total = mass[kSideSamples];
-  const auto n_pieces = std::max<std::int64_t>(1, static_cast<std::int64_t>(total + 0.5));
+  const auto n_pieces =
+      std::max<std::int64_t>(1, static_cast<std::int64_t>(std::floor(total + 0.5)));
   std::vector<double> cuts;
   cuts.reserve(static_cast<std::size_t>(n_pieces));
   std::size_t s = 0;

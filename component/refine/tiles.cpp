@@ -12,8 +12,9 @@ namespace {
 // Earth, 64 samples in each), so that a small fine patch inside a large face is not overlooked.
 constexpr int kMeasuredLevel = 4;
 constexpr int kMeasuredPerFace = 256;  // 4^kMeasuredLevel
-constexpr int kSamplesPerSide = 8;     // sub-triangles along a side when a triangle is measured
-constexpr int kMaxLevel = 24;          // the icosahedron's side over 2^24 is below one metre
+constexpr std::size_t kSamplesPerSide =
+    8;                         // sub-triangles along a side when a triangle is measured
+constexpr int kMaxLevel = 24;  // the icosahedron's side over 2^24 is below one metre
 constexpr std::int64_t kMeasureGrain = 16;  // triangles a task: about 20 microseconds
 
 constexpr std::array<std::array<Index, 3>, 20> kFaces = {
@@ -39,29 +40,27 @@ std::array<Triple, 4> split(const Ellipsoid& surface, const Triple& t) {
 
 // Expected vertices, integral of 2 / (sqrt(3) h^2), of a surface triangle by the midpoint rule.
 double measure(const Ellipsoid& surface, const SpacingField& spacing, const Triple& t) {
-  constexpr int n = kSamplesPerSide;
-  std::array<Vec3, (n + 1) * (n + 2) / 2> point;
-  const auto id = [](int i, int j) {
-    return static_cast<std::size_t>(i * (2 * n + 3 - i) / 2 + j);
-  };
-  for (int i = 0; i <= n; ++i) {
-    for (int j = 0; j <= n - i; ++j) {
-      point[id(i, j)] = surface.project((n - i - j) * t[0] + i * t[1] + j * t[2]);
+  constexpr std::size_t kPerSide = kSamplesPerSide;
+  std::array<std::array<Vec3, kPerSide + 1>, kPerSide + 1> at;
+  for (std::size_t i = 0; i <= kPerSide; ++i) {
+    for (std::size_t j = 0; j <= kPerSide - i; ++j) {
+      at[i][j] = surface.project(static_cast<double>(kPerSide - i - j) * t[0] +
+                                 static_cast<double>(i) * t[1] + static_cast<double>(j) * t[2]);
     }
   }
-  // Centres and (twice the) areas of the sub-triangles first, then all spacings in one batch.
-  std::array<Vertex, n * n> centre;
-  std::array<double, n * n> twice_area;
+  // Centres and twice the areas of the sub-triangles first, then all spacings in one batch.
+  std::array<Vertex, kPerSide * kPerSide> centre;
+  std::array<double, kPerSide * kPerSide> twice_area;
   std::size_t count = 0;
   const auto add = [&](const Vec3& p, const Vec3& q, const Vec3& r) {
     const Vec3 c = surface.project(p + q + r);
     centre[count] = {c.x(), c.y(), c.z(), 0.0};
     twice_area[count++] = (q - p).cross(r - p).norm();
   };
-  for (int i = 0; i < n; ++i) {
-    for (int j = 0; j < n - i; ++j) {
-      add(point[id(i, j)], point[id(i + 1, j)], point[id(i, j + 1)]);
-      if (j < n - i - 1) add(point[id(i + 1, j)], point[id(i + 1, j + 1)], point[id(i, j + 1)]);
+  for (std::size_t i = 0; i < kPerSide; ++i) {
+    for (std::size_t j = 0; j < kPerSide - i; ++j) {
+      add(at[i][j], at[i + 1][j], at[i][j + 1]);
+      if (i + j + 1 < kPerSide) add(at[i + 1][j], at[i + 1][j + 1], at[i][j + 1]);
     }
   }
   spacing.evaluate(centre);

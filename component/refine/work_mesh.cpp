@@ -69,7 +69,8 @@ void WorkMesh::fill_cavity(Cavity& cavity, Index new_vertex) {
     if (cavity.link[i] >= 0) {
       at(triangle_of(cavity.link[i])).link[side_of(cavity.link[i])] = 4 * id;
     } else {
-      border_links[static_cast<std::size_t>(~cavity.link[i])] = 4 * id;
+      const Index slot = ~cavity.link[i];
+      border_links[static_cast<std::size_t>(slot)] = 4 * id;
     }
   }
 }

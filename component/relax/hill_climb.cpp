@@ -16,8 +16,8 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 class Climber {
  public:
-  Climber(const Ellipsoid& surface, const SpacingField& spacing, Patch& patch)
-      : surface_(surface), spacing_(spacing), patch_(patch), stars_(patch::stars(patch)) {}
+  Climber(const Target& target, Patch& patch)
+      : target_(target), patch_(patch), stars_(patch::stars(patch)) {}
 
   // Least score of the star with its vertex at p.
   double star_score(Index vertex, const Vertex& p) const {
@@ -28,10 +28,10 @@ class Climber {
     return least;
   }
 
-  bool improve(Index vertex, double target) {
+  bool improve(Index vertex, double enough) {
     const Vertex p = patch_.vertex(vertex);
     const double before = star_score(vertex, p);
-    if (before >= target) return false;
+    if (before >= enough) return false;
     for (const Vec3& direction : {quality_direction(vertex, before), spring_force(vertex)}) {
       const double length = std::sqrt(direction.squaredNorm());
       if (length == 0.0) continue;
@@ -67,8 +67,8 @@ class Climber {
   }
 
   Vertex moved(const Vertex& p, const Vec3& step) const {
-    const Vec3 q = surface_.project(p.position() + step);
-    return {q.x(), q.y(), q.z(), spacing_.at(q.x(), q.y(), q.z())};
+    const Vec3 q = target_.surface.project(p.position() + step);
+    return {q.x(), q.y(), q.z(), target_.spacing.at(q.x(), q.y(), q.z())};
   }
 
   // Sum of the gradients of a_f = c A / S, S the sum of the squared sides, over the triangles whose
@@ -104,27 +104,24 @@ class Climber {
     return force;
   }
 
-  const Ellipsoid& surface_;
-  const SpacingField& spacing_;
+  const Target& target_;
   Patch& patch_;
   patch::Stars stars_;
 };
 
 }  // namespace
 
-void hill_climb(const Ellipsoid& surface, const SpacingField& spacing, const ClimbOptions& options,
-                Patch& patch) {
-  Climber climber(surface, spacing, patch);
+void hill_climb(const Target& target, const ClimbOptions& options, Patch& patch) {
+  Climber climber(target, patch);
   bool has_moved = true;
   for (int sweep = 0; has_moved && sweep < options.sweeps; ++sweep) {
     has_moved = false;
-    for (Index v = 0; v < patch.n_free; ++v) has_moved |= climber.improve(v, options.target);
+    for (Index v = 0; v < patch.n_free; ++v) has_moved |= climber.improve(v, options.enough);
   }
 }
 
-void relax_patch(const Ellipsoid& surface, const SpacingField& spacing,
-                 const SpringOptions& options, Patch& patch) {
-  Climber climber(surface, spacing, patch);
+void relax_patch(const Target& target, const SpringOptions& options, Patch& patch) {
+  Climber climber(target, patch);
   for (int sweep = 0; sweep < options.sweeps; ++sweep) {
     for (Index v = 0; v < patch.n_free; ++v) climber.spring(v, options.floor);
   }

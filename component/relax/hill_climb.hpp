@@ -2,20 +2,18 @@
 #pragma once
 // Moves the free vertices of a patch so that its worst triangle gets better (worst element first:
 // Freitag & Ollivier-Gooch 1997; Engwirda 2017, GMD 10, 2117, section 4).
-#include "geometry/ellipsoid.hpp"
 #include "relax/patch.hpp"
-#include "sizing/spacing.hpp"
+#include "relax/target.hpp"
 
 namespace delos {
 
 struct ClimbOptions {
-  double target = 0.93;  ///< score above which a star is left alone
+  double enough = 0.93;  ///< score above which a star is left alone
   int sweeps = 12;       ///< over all free vertices, at most
 };
 
 /// A vertex moves only where the worst score of its star rises. Connectivity stays.
-void hill_climb(const Ellipsoid& surface, const SpacingField& spacing, const ClimbOptions& options,
-                Patch& patch);
+void hill_climb(const Target& target, const ClimbOptions& options, Patch& patch);
 
 struct SpringOptions {
   int sweeps = 12;
@@ -24,7 +22,6 @@ struct SpringOptions {
 };
 
 /// Spring sweeps over the free vertices, one after the other (Gauss-Seidel).
-void relax_patch(const Ellipsoid& surface, const SpacingField& spacing,
-                 const SpringOptions& options, Patch& patch);
+void relax_patch(const Target& target, const SpringOptions& options, Patch& patch);
 
 }  // namespace delos

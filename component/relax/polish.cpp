@@ -108,6 +108,12 @@ std::size_t tried_at(const Mesh& mesh, const TriedMeans& tried, Index tri) {
   return std::min({tried[at(v[0])], tried[at(v[1])], tried[at(v[2])]});
 }
 
+// A mesh and one triangle at each vertex.
+struct MeshView {
+  const Mesh& mesh;
+  const TriangleAtVertex& at_vertex;
+};
+
 struct Job {
   Index triangle;
   Means means;
@@ -132,15 +138,14 @@ std::vector<Job> pick_jobs(const Mesh& mesh, const TriangleAtVertex& at_vertex,
   return jobs;
 }
 
-void mend(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
-          const RelaxOptions& options, const Mesh& mesh, const TriangleAtVertex& at_vertex,
+void mend(Context& context, const Target& target, const RelaxOptions& options, const MeshView& view,
           std::vector<Job>& jobs) {
   parallel::for_index(
       context.exec, static_cast<std::int64_t>(jobs.size()), kPatchGrain, [&](std::int64_t i) {
         Job& job = jobs[static_cast<std::size_t>(i)];
-        job.patch = extract_patch(mesh, at_vertex, job.free_vertices);
+        job.patch = extract_patch(view.mesh, view.at_vertex, job.free_vertices);
         job.is_better = repair_patch(
-            surface, spacing, {options.target_quality, options.repair && job.means.change_topology},
+            target, {options.target_quality, options.repair && job.means.change_topology},
             job.patch.patch);
       });
 }
@@ -185,8 +190,9 @@ std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index>
 
 }  // namespace
 
-void polish(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
-            const RelaxOptions& options, Mesh& mesh, RelaxReport& report) {
+PolishReport polish(Context& context, const Target& target, const RelaxOptions& options,
+                    Mesh& mesh) {
+  PolishReport report;
   std::vector<Index> bad = find_bad(context.exec, mesh, options.target_quality);
   const Phase phase(context.monitor, "polish", static_cast<std::int64_t>(bad.size()));
   TriedMeans tried(mesh.vertices.size(), 0);
@@ -197,7 +203,7 @@ void polish(Context& context, const Ellipsoid& surface, const SpacingField& spac
     std::vector<Job> jobs =
         pick_jobs(mesh, at_vertex, tried, is_hostile ? kMovesOnly : kMeans.size(), bad);
     if (jobs.empty()) break;
-    mend(context, surface, spacing, options, mesh, at_vertex, jobs);
+    mend(context, target, options, {mesh, at_vertex}, jobs);
     const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
     MeshEdits edits = commit(jobs, mesh, at_vertex, tried);
     report.n_inserted += static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
@@ -205,12 +211,13 @@ void polish(Context& context, const Ellipsoid& surface, const SpacingField& spac
     const auto n_bad_before = static_cast<std::int64_t>(bad.size());
     if (!edits.dead_vertices.empty()) compact_all(mesh, edits, tried, bad);
     std::vector<Index> written = edits.touched_triangles;
-    report.n_flips += restore_delaunay(mesh, surface, edits.touched_triangles, &written);
+    report.n_flips += restore_delaunay(mesh, target.surface, edits.touched_triangles, &written);
     bad = still_bad(mesh, options.target_quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
-    ++report.polish_rounds;
+    ++report.rounds;
   }
   report.n_below_target = static_cast<std::int64_t>(bad.size());
+  return report;
 }
 
 }  // namespace delos

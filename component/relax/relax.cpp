@@ -25,19 +25,19 @@ void check_options(const RelaxOptions& options) {
               ": must be above 0 and below 1 (0.93 is the default).");
 }
 
-void relax_springs(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
-                   const RelaxOptions& options, Mesh& mesh, RelaxReport& report) {
+void relax_springs(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
+                   RelaxReport& report) {
   const Phase phase(context.monitor, "relax",
                     static_cast<std::int64_t>(options.spring_rounds) * mesh.n_vertices());
   std::vector<Vertex> moved(mesh.vertices.size());
   NeighbourRows rows(context.exec, mesh);
   for (int round = 0; round < options.spring_rounds; ++round) {
     context.monitor.check_cancelled();
-    spring_round(context.exec, surface, spacing, rows, mesh, moved);
+    spring_round(context.exec, target, rows, mesh, moved);
     std::swap(mesh.vertices, moved);
     ++report.spring_rounds;
     if (is_flip_round(round, options.spring_rounds - 1)) {
-      const std::int64_t n_flips = restore_delaunay_everywhere(context.exec, mesh, surface);
+      const std::int64_t n_flips = restore_delaunay_everywhere(context.exec, mesh, target.surface);
       report.n_flips += n_flips;
       if (n_flips > 0) rows = NeighbourRows(context.exec, mesh);
     }
@@ -51,8 +51,16 @@ RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField
                   const RelaxOptions& options, Mesh& mesh) {
   check_options(options);
   RelaxReport report;
-  if (options.spring_rounds > 0) relax_springs(context, surface, spacing, options, mesh, report);
-  if (options.polish_rounds > 0) polish(context, surface, spacing, options, mesh, report);
+  const Target target{surface, spacing};
+  if (options.spring_rounds > 0) relax_springs(context, target, options, mesh, report);
+  if (options.polish_rounds > 0) {
+    const PolishReport polished = polish(context, target, options, mesh);
+    report.polish_rounds = polished.rounds;
+    report.n_flips += polished.n_flips;
+    report.n_removed = polished.n_removed;
+    report.n_inserted = polished.n_inserted;
+    report.n_below_target = polished.n_below_target;
+  }
   return report;
 }
 

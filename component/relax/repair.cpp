@@ -17,20 +17,20 @@ constexpr int kClimbRounds = 3;      // hill climbing and flips in turn
 
 class Repairer {
  public:
-  Repairer(const Ellipsoid& surface, const SpacingField& spacing, const RepairOptions& options)
-      : surface_(surface), spacing_(spacing), options_(options) {}
+  Repairer(const Target& target, const RepairOptions& options)
+      : target_(target), options_(options) {}
 
   // Springs, flips, hill climbing; returns the worst score.
   double settle(Patch& patch, int spring_sweeps) const {
     if (spring_sweeps > 0) {
-      relax_patch(surface_, spacing_, {spring_sweeps, 0.0}, patch);
+      relax_patch(target_, {spring_sweeps, 0.0}, patch);
       patch::restore_delaunay(patch);
     }
     for (int round = 0; round < kClimbRounds; ++round) {
-      hill_climb(surface_, spacing_, {options_.target + kMargin, 12}, patch);
+      hill_climb(target_, {options_.enough + kMargin, 12}, patch);
       if (patch::restore_delaunay(patch) == 0) break;
     }
-    relax_patch(surface_, spacing_, {kSmoothSweeps, options_.target}, patch);
+    relax_patch(target_, {kSmoothSweeps, options_.enough}, patch);
     patch::restore_delaunay(patch);
     return patch.worst().first;
   }
@@ -40,7 +40,7 @@ class Repairer {
     patch::restore_delaunay(trial);
     const double score = settle(trial, kSpringSweeps);
     if (score > best.first + kLeastGain) best = {score, std::move(trial)};
-    return best.first >= options_.target;
+    return best.first >= options_.enough;
   }
 
   // One vertex less or more at the worst triangle, whichever leaves the best patch.
@@ -58,30 +58,29 @@ class Repairer {
                                    patch.vertex(worst.vertex[2]).position()};
     for (const Vec3& place : {Vec3(p[0] + p[1] + p[2]), Vec3(4.0 * (p[0] + p[1]) + p[2]),
                               Vec3(4.0 * (p[1] + p[2]) + p[0]), Vec3(4.0 * (p[2] + p[0]) + p[1])}) {
-      const Vec3 q = surface_.project(place);
+      const Vec3 q = target_.surface.project(place);
       Patch trial = patch;
-      patch::insert_vertex(trial, tri, {q.x(), q.y(), q.z(), spacing_.at(q.x(), q.y(), q.z())});
+      patch::insert_vertex(trial, tri,
+                           {q.x(), q.y(), q.z(), target_.spacing.at(q.x(), q.y(), q.z())});
       if (consider(std::move(trial), best)) return;
     }
   }
 
  private:
-  const Ellipsoid& surface_;
-  const SpacingField& spacing_;
+  const Target& target_;
   const RepairOptions& options_;
 };
 
 }  // namespace
 
-bool repair_patch(const Ellipsoid& surface, const SpacingField& spacing,
-                  const RepairOptions& options, Patch& patch) {
-  const Repairer repairer(surface, spacing, options);
+bool repair_patch(const Target& target, const RepairOptions& options, Patch& patch) {
+  const Repairer repairer(target, options);
   const double before = patch.worst().first;
   std::pair<double, Patch> best{before, patch};
   Patch moved = patch;
   const double score = repairer.settle(moved, 0);
   if (score > before + kLeastGain) best = {score, moved};
-  if (best.first < options.target && options.change_topology) repairer.try_topology(patch, best);
+  if (best.first < options.enough && options.change_topology) repairer.try_topology(patch, best);
   if (best.first <= before + kLeastGain) return false;
   patch = std::move(best.second);
   return true;

@@ -2,20 +2,18 @@
 #pragma once
 // Mends one patch: by moving its vertices and, where that stalls, by taking one out or putting one
 // in.
-#include "geometry/ellipsoid.hpp"
 #include "relax/patch.hpp"
-#include "sizing/spacing.hpp"
+#include "relax/target.hpp"
 
 namespace delos {
 
 struct RepairOptions {
-  double target = 0.93;          ///< score that every triangle is to reach
+  double enough = 0.93;          ///< score that every triangle is to reach
   bool change_topology = false;  ///< whether vertices may be removed and inserted
 };
 
 /// Improves the patch; its worst score never falls. False when nothing could be gained (the patch
 /// is then as it was).
-bool repair_patch(const Ellipsoid& surface, const SpacingField& spacing,
-                  const RepairOptions& options, Patch& patch);
+bool repair_patch(const Target& target, const RepairOptions& options, Patch& patch);
 
 }  // namespace delos

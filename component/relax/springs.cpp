@@ -59,9 +59,8 @@ Vec3 overflow_force(const std::vector<Vertex>& vertices, Index vertex,
   return force;
 }
 
-void move_all(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
-              const NeighbourRows& rows, const std::vector<Vertex>& vertices,
-              std::vector<Vertex>& moved) {
+void move_all(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
+              const std::vector<Vertex>& vertices, std::vector<Vertex>& moved) {
   const bool has_overflow = !rows.overflow().empty();
   const auto n = static_cast<std::int64_t>(vertices.size());
   parallel::for_range(exec, n, kSpringGrain, [&](std::int64_t begin, std::int64_t end) {
@@ -76,11 +75,11 @@ void move_all(parallel::Executor& exec, const Ellipsoid& surface, const SpacingF
       const double length = std::sqrt(step.squaredNorm());
       const double longest = kLongestStep * p.spacing;
       if (length > longest) step *= longest / length;
-      const Vec3 q = surface.project(p.position() + step);
+      const Vec3 q = target.surface.project(p.position() + step);
       moved[v] = {q.x(), q.y(), q.z(), p.spacing};
     }
-    spacing.evaluate(std::span(moved).subspan(static_cast<std::size_t>(begin),
-                                              static_cast<std::size_t>(end - begin)));
+    target.spacing.evaluate(std::span(moved).subspan(static_cast<std::size_t>(begin),
+                                                     static_cast<std::size_t>(end - begin)));
   });
 }
 
@@ -123,9 +122,9 @@ std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
 
 }  // namespace
 
-void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
-                  const NeighbourRows& rows, const Mesh& mesh, std::vector<Vertex>& moved) {
-  move_all(exec, surface, spacing, rows, mesh.vertices, moved);
+void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
+                  const Mesh& mesh, std::vector<Vertex>& moved) {
+  move_all(exec, target, rows, mesh.vertices, moved);
   // Each pass puts at least one more vertex back, so this ends; one pass is the rule.
   for (std::vector<Index> spoilt = find_spoilt(exec, mesh, moved); !spoilt.empty();
        spoilt = find_spoilt(exec, mesh, moved)) {

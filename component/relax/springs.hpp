@@ -2,9 +2,8 @@
 #pragma once
 // Spring relaxation (Persson & Strang 2004; Engwirda 2015, Eq. 2).
 #include "core/parallel.hpp"
-#include "geometry/ellipsoid.hpp"
 #include "relax/neighbours.hpp"
-#include "sizing/spacing.hpp"
+#include "relax/target.hpp"
 #include "triangulation/mesh.hpp"
 
 namespace delos {
@@ -14,7 +13,7 @@ namespace delos {
 /// to a fraction of h. Spacings are looked up anew. A move that flattens a triangle or turns it
 /// over is taken back, so every triangle stays counter-clockwise. Reads mesh.vertices, writes
 /// `moved` (same length).
-void spring_round(parallel::Executor& exec, const Ellipsoid& surface, const SpacingField& spacing,
-                  const NeighbourRows& rows, const Mesh& mesh, std::vector<Vertex>& moved);
+void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
+                  const Mesh& mesh, std::vector<Vertex>& moved);
 
 }  // namespace delos

@@ -42,10 +42,16 @@ inline double upwind(double a, double b, double dx, double dy, double slope) {
   return (wa * a + wb * b + std::sqrt(std::max(square, 0.0))) / sum;
 }
 
+/// The steps from a node to two of its neighbours and the cosine of the angle between them.
+struct Corner {
+  double dx, dy, cosine;
+};
+
 /// The same when the steps meet at an angle: within the triangle of the node and its neighbours a
 /// and b the slope of the linear h is `slope`; the front must come from inside the triangle,
 /// else it came along one of the sides.
-inline double upwind_skew(double a, double b, double dx, double dy, double cosine, double slope) {
+inline double upwind_skew(double a, double b, const Corner& corner, double slope) {
+  const auto [dx, dy, cosine] = corner;
   const double along = std::min(a + slope * dx, b + slope * dy);
   const double sine2 = 1.0 - cosine * cosine;
   const double wa = 1.0 / (dx * dx * sine2), wb = 1.0 / (dy * dy * sine2);
@@ -171,10 +177,10 @@ bool Limiter::limit_node(Index j, Index i) {
   const double dx = metric_.dx[node], dy = metric_.dy[node], cosine = metric_.cosine[node];
   const double* here = row(j);
   const double s = row(j - 1)[i], n = row(j + 1)[i];
-  double best = upwind_skew(here[east], n, dx, dy, cosine, slope_);
-  best = std::min(best, upwind_skew(here[west], n, dx, dy, -cosine, slope_));
-  best = std::min(best, upwind_skew(here[west], s, dx, dy, cosine, slope_));
-  best = std::min(best, upwind_skew(here[east], s, dx, dy, -cosine, slope_));
+  double best = upwind_skew(here[east], n, {dx, dy, cosine}, slope_);
+  best = std::min(best, upwind_skew(here[west], n, {dx, dy, -cosine}, slope_));
+  best = std::min(best, upwind_skew(here[west], s, {dx, dy, cosine}, slope_));
+  best = std::min(best, upwind_skew(here[east], s, {dx, dy, -cosine}, slope_));
   // Along the shorter step the slack of the other kernel, as a length.
   if (!(best < here[i] - kSlack * slope_ * std::min(dx, dy))) return false;
   field_.values[node] = best;

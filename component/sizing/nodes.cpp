@@ -49,6 +49,7 @@ TableMetric::TableMetric(parallel::Executor& exec, const Ellipsoid& surface, Lat
 void TableMetric::measure_rows(const Ellipsoid& surface, LatitudeKind latitude,
                                const LatLonField& field) {
   std::vector<Vec3> meridian;
+  meridian.reserve(static_cast<std::size_t>(field.n_rows()));
   for (Index j = 0; j < field.n_rows(); ++j) {
     meridian.push_back(surface.scale_m() * surface.point({0.0, field.lat_rad(j)}, latitude));
   }

@@ -131,6 +131,7 @@ void check_raster(const Raster& raster) {
 
 std::vector<double> target_latitudes(const LatLonField& field) {
   std::vector<double> lat;
+  lat.reserve(static_cast<std::size_t>(field.n_rows()));
   for (Index row = 0; row < field.n_rows(); ++row) {
     lat.push_back(180.0 * row / field.n_lat_cells - 90.0);
   }

@@ -254,7 +254,7 @@ SpacingField build_spacing(Context& context, const Ellipsoid& surface,
     return SpacingField::table(surface, recipe.latitude,
                                build_spacing_table(context, surface, recipe));
   }
-  const SpacingField field = SpacingField::constant(surface, constant_spacing_m(recipe));
+  SpacingField field = SpacingField::constant(surface, constant_spacing_m(recipe));
   if (recipe.cells == 0) return field;
   const double n = expected_vertices(context.exec, surface, field);
   const double scale = std::sqrt(n / static_cast<double>(recipe.cells));

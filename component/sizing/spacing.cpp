@@ -76,7 +76,7 @@ Vec3 direction_weight(const Ellipsoid& surface, LatitudeKind latitude) {
 /// Surface area per solid angle of the table's direction u. Normal: 1 / Gaussian curvature in
 /// terms of the support function; radius: ray over slant; parametric: cofactor of diag(r).
 double area_per_solid_angle(const Ellipsoid& surface, LatitudeKind latitude, const Vec3& u) {
-  const Vec3 r = surface.radii();
+  const Vec3& r = surface.radii();
   const double product = r[0] * r[1] * r[2];
   if (latitude == LatitudeKind::geodetic) {
     const double support2 = r.cwiseProduct(u).squaredNorm();

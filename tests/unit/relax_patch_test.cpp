@@ -104,7 +104,7 @@ TEST_CASE("a vertex pushed aside is brought back by hill climbing") {
   const Vec3 q = kSphere.project(pushed.position() + Vec3(0.05, -0.05, 0.03));
   pushed = {q.x(), q.y(), q.z(), 0.1};
   const double before = patch.worst().first;
-  hill_climb(kSphere, sample.spacing, {}, patch);
+  hill_climb({kSphere, sample.spacing}, {}, patch);
   CHECK(before < 0.9);
   CHECK(patch.worst().first > 0.93);
 }
@@ -115,7 +115,7 @@ TEST_CASE("repair never lowers the worst score and says when it gained nothing")
     ExtractedPatch edited = patch_at(sample.mesh, vertex);
     const double before = edited.patch.worst().first;
     const Patch copy = edited.patch;
-    const bool is_better = repair_patch(kSphere, sample.spacing, {0.95, true}, edited.patch);
+    const bool is_better = repair_patch({kSphere, sample.spacing}, {0.95, true}, edited.patch);
     const double after = edited.patch.worst().first;
     CHECK(after >= before);
     CHECK(is_better == (after > before));

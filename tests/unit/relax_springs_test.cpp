@@ -44,8 +44,8 @@ TEST_CASE("an icosahedron with the right rest length stays where it is") {
   const double edge = 4.0 / std::sqrt(10.0 + 2.0 * std::sqrt(5.0));
   const Mesh mesh = mesh_of(exec, points, edge);
   std::vector<Vertex> moved(mesh.vertices.size());
-  spring_round(exec, sphere, SpacingField::constant(sphere, edge), NeighbourRows(exec, mesh), mesh,
-               moved);
+  const SpacingField spacing = SpacingField::constant(sphere, edge);
+  spring_round(exec, {sphere, spacing}, NeighbourRows(exec, mesh), mesh, moved);
   for (std::size_t v = 0; v < moved.size(); ++v) {
     CHECK((moved[v].position() - mesh.vertices[v].position()).norm() < 1e-14);
   }
@@ -76,7 +76,7 @@ TEST_CASE("springs pull the lengths of a disturbed grid together") {
   const double before = energy();
   std::vector<Vertex> moved(mesh.vertices.size());
   for (int round = 0; round < 20; ++round) {
-    spring_round(exec, sphere, spacing, rows, mesh, moved);
+    spring_round(exec, {sphere, spacing}, rows, mesh, moved);
     std::swap(mesh.vertices, moved);
   }
   CHECK(energy() < 0.3 * before);
