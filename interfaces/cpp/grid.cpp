@@ -15,9 +15,9 @@ namespace {
 /// Rows of plain numbers seen as the numbers.
 template <class Number, class Row>
 std::span<const Number> flat(const std::vector<Row>& rows) {
-  static_assert(sizeof(Row) == std::tuple_size_v<Row> * sizeof(Number));
-  constexpr std::size_t kPerRow = std::tuple_size_v<Row>;
-  return {reinterpret_cast<const Number*>(rows.data()), rows.size() * kPerRow};
+  static_assert(std::is_standard_layout_v<Row> && sizeof(Row) % sizeof(Number) == 0);
+  const std::span<const Row> all(rows);
+  return {reinterpret_cast<const Number*>(all.data()), all.size_bytes() / sizeof(Number)};
 }
 
 std::span<const double> flat(const std::vector<Vec3>& points) {
