@@ -11,6 +11,8 @@ function(delos_target_options target)
   # Eigen's own vector code depends on the instruction set; three-vectors gain nothing from it.
   target_compile_definitions(${target} PRIVATE EIGEN_DONT_VECTORIZE EIGEN_MPL2_ONLY
     $<$<OR:$<CONFIG:Debug>,$<BOOL:${DELOS_ASSERTS}>>:DELOS_ENABLE_ASSERTS>)
+  # GCC 12 sees overlaps in string concatenations that are none (GCC bug 105651).
+  target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
   if(DELOS_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${DELOS_SANITIZE} -fno-sanitize-recover=all
       -fno-omit-frame-pointer)

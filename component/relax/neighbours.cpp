@@ -56,6 +56,28 @@ NeighbourRows::NeighbourRows(parallel::Executor& exec, const Mesh& mesh)
       });
 }
 
+void NeighbourRows::update(const Mesh& mesh, const std::vector<Index>& triangles) {
+  // The lowest triangle of the list at each vertex, so that the row does not depend on the order.
+  std::vector<std::pair<Index, Index>> corners;
+  for (const Index tri : triangles) {
+    for (const Index v : mesh.triangle(tri).vertex) corners.emplace_back(v, tri);
+  }
+  std::sort(corners.begin(), corners.end());
+  const auto is_same_vertex = [](const auto& a, const auto& b) { return a.first == b.first; };
+  corners.erase(std::unique(corners.begin(), corners.end(), is_same_vertex), corners.end());
+  for (const auto& corner : corners) {
+    const Index vertex = corner.first;
+    std::erase_if(overflow_, [&](const Overflow& entry) { return entry.vertex == vertex; });
+    Overflow beyond{vertex, {}};
+    auto& row = rows_[static_cast<std::size_t>(vertex)];
+    if (fill_row(mesh, vertex, corner.second, row, &beyond.neighbours) <= kWidth) continue;
+    overflow_.insert(
+        std::lower_bound(overflow_.begin(), overflow_.end(), vertex,
+                         [](const Overflow& entry, Index id) { return entry.vertex < id; }),
+        std::move(beyond));
+  }
+}
+
 const Overflow* NeighbourRows::overflow_of(Index vertex) const {
   const auto found =
       std::lower_bound(overflow_.begin(), overflow_.end(), vertex,

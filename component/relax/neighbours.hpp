@@ -16,6 +16,9 @@ class NeighbourRows {
   /// Neighbours of every vertex, counter-clockwise from the one that its lowest triangle names.
   NeighbourRows(parallel::Executor& exec, const Mesh& mesh);
 
+  /// Renews the rows of the corners of these triangles, which flips have changed.
+  void update(const Mesh& mesh, const std::vector<Index>& triangles);
+
   /// First eight neighbours; unused places hold the vertex itself.
   const std::array<Index, kWidth>& row(Index vertex) const {
     return rows_[static_cast<std::size_t>(vertex)];

@@ -37,9 +37,9 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
     std::swap(mesh.vertices, moved);
     ++report.spring_rounds;
     if (is_flip_round(round, options.spring_rounds - 1)) {
-      const std::int64_t n_flips = restore_delaunay_everywhere(context.exec, mesh, target.surface);
-      report.n_flips += n_flips;
-      if (n_flips > 0) rows = NeighbourRows(context.exec, mesh);
+      std::vector<Index> flipped;
+      report.n_flips += restore_delaunay_everywhere(context.exec, mesh, target.surface, &flipped);
+      rows.update(mesh, flipped);
     }
     context.monitor.advance(mesh.n_vertices());
   }

@@ -38,6 +38,17 @@ void relink(Mesh& mesh, Index tri, Index from, Index to, Index neighbour) {
   t.neighbour[slot(side)] = neighbour;
 }
 
+/// Whether all angles are below a right angle by a margin far above rounding. Two such triangles
+/// share no illegal side: the angles opposite to it sum to less than two right angles.
+bool is_clearly_acute(const Mesh& mesh, const Triangle& t) {
+  constexpr double kMargin = 1e-6;  // of the cosine, times the lengths of the sides
+  const Vec3 a = mesh.position(t.vertex[0]);
+  const Vec3 ab = mesh.position(t.vertex[1]) - a, ac = mesh.position(t.vertex[2]) - a;
+  const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
+  const double least = kMargin * (bb + cc);
+  return bc > least && bb - bc > least && cc - bc > least;
+}
+
 bool is_positive(const Mesh& mesh, Index a, Index b, Index c) {
   return predicates::orient_origin(mesh.position(a), mesh.position(b), mesh.position(c)) > 0;
 }
@@ -101,16 +112,15 @@ std::int64_t restore_delaunay(Mesh& mesh, const Ellipsoid& surface, std::span<co
 }
 
 std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
-                                         const Ellipsoid& surface) {
+                                         const Ellipsoid& surface, std::vector<Index>* touched) {
   constexpr std::int64_t kGrain = 8192;  // about 0.5 ms
   const std::int64_t n = mesh.n_triangles();
   std::vector<std::vector<Index>> found(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
   parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t end) {
     std::vector<Index>& list = found[static_cast<std::size_t>(begin / kGrain)];
     for (auto tri = static_cast<Index>(begin); tri < static_cast<Index>(end); ++tri) {
+      if (is_clearly_acute(mesh, mesh.triangle(tri))) continue;
       for (int side = 0; side < 3; ++side) {
-        // Each side once, from its triangle of lower id.
-        if (mesh.triangle(tri).neighbour[slot(side)] < tri) continue;
         if (!is_illegal(mesh, surface, tri, side)) continue;
         list.push_back(tri);
         break;
@@ -119,7 +129,7 @@ std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
   });
   std::vector<Index> seeds;
   for (const std::vector<Index>& list : found) seeds.insert(seeds.end(), list.begin(), list.end());
-  return restore_delaunay(mesh, surface, seeds);
+  return restore_delaunay(mesh, surface, seeds, touched);
 }
 
 }  // namespace delos

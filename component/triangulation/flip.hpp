@@ -46,6 +46,7 @@ std::int64_t restore_delaunay(Mesh& mesh, const Ellipsoid& surface, std::span<co
 /// The same for all triangles: candidates are found in parallel, then flipped serially in
 /// ascending order, so that the result does not depend on the number of threads.
 std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
-                                         const Ellipsoid& surface);
+                                         const Ellipsoid& surface,
+                                         std::vector<Index>* touched = nullptr);
 
 }  // namespace delos
