@@ -33,8 +33,8 @@ struct PolygonRing {
   Index polygon = 0;  ///< the polygon that it bounds, from outside or as a hole
 };
 
-/// Polygons with holes: even-odd over the rings of one polygon, and the union of the polygons, which
-/// may overlap. Rings of one polygon stand together.
+/// Polygons with holes: even-odd over the rings of one polygon, and the union of the polygons,
+/// which may overlap. Rings of one polygon stand together.
 struct PolygonSet {
   std::string source;
   std::vector<PolygonRing> rings;

@@ -3,9 +3,11 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "triangulation/delaunay.hpp"
+#include "triangulation/flip.hpp"
 #include "triangulation/seeds.hpp"
 
 using namespace delos;
@@ -35,6 +37,39 @@ TEST_CASE("rows hold every neighbour once, beyond the eighth in the overflow") {
   CHECK(rows.overflow_of(5) == nullptr);
   const auto& row = rows.row(5);
   CHECK(std::count(row.begin(), row.end(), 5) == 4);  // four neighbours, four empty places
+}
+
+TEST_CASE("rows renewed after flips hold what rows built anew hold") {
+  parallel::Executor exec(1);
+  Mesh mesh = mesh_of(exec, fibonacci_points(400), 0.2);
+  NeighbourRows renewed(exec, mesh);
+  // Flips that pile degree on vertex 7 until it overflows, then those that take it off again.
+  for (int round = 0; round < 12; ++round) {
+    CAPTURE(round);
+    std::vector<Index> touched;
+    for (Index tri = 0; tri < mesh.n_triangles() && touched.empty(); ++tri) {
+      const int k = corner_at(mesh.triangle(tri), 7);
+      const int side = round < 6 ? k : next_corner(k);
+      if (k < 0 || !can_flip(mesh, tri, side)) continue;
+      touched = {tri, mesh.triangle(tri).neighbour[static_cast<std::size_t>(side)]};
+      flip(mesh, tri, side);
+    }
+    REQUIRE_FALSE(touched.empty());
+    renewed.update(mesh, touched);
+    const NeighbourRows fresh(exec, mesh);
+    REQUIRE(renewed.overflow().size() == fresh.overflow().size());
+    for (Index v = 0; v < mesh.n_vertices(); ++v) {
+      const auto all_of = [&](const NeighbourRows& rows) {
+        std::vector<Index> all(rows.row(v).begin(), rows.row(v).end());
+        if (const auto* more = rows.overflow_of(v)) {
+          all.insert(all.end(), more->neighbours.begin(), more->neighbours.end());
+        }
+        std::sort(all.begin(), all.end());
+        return all;
+      };
+      REQUIRE(all_of(renewed) == all_of(fresh));
+    }
+  }
 }
 
 TEST_CASE("an icosahedron with the right rest length stays where it is") {
