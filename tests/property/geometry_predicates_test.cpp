@@ -21,7 +21,7 @@ __extension__ using Integer = __int128;
 /// Points on integer grids: every determinant is exact in 128 bits.
 Vec3 grid_point(std::uint64_t seed, std::uint64_t id, int range) {
   const auto coordinate = [&](std::uint64_t axis) {
-    return std::floor(uniform01(seed, id, axis) * (2 * range + 1)) - range;
+    return std::floor(uniform01(seed, id, axis) * (2.0 * range + 1.0)) - range;
   };
   return {coordinate(0), coordinate(1), coordinate(2)};
 }
