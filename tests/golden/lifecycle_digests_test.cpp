@@ -37,8 +37,8 @@ std::map<std::string, std::string> cases() {
        "sizing: {sources: [{type: latitude_profile, latitude: [-90 deg, 0 deg, 90 deg], "
        "spacing: [150 km, 400 km, 200 km]}], gradient_limit: 0.1, cells: 8000}\n" +
            tiles},
-      {"icosahedral", "generator: icosahedral\nsubdivisions: 16\n" + uniform},
-      {"cubed_sphere", "generator: cubed_sphere\nsubdivisions: 12\n" + uniform},
+      {"icosahedral", "generator: icosahedral\nsubdivisions: 16\n"},
+      {"cubed_sphere", "generator: cubed_sphere\nsubdivisions: 12\n"},
   };
 }
 
