@@ -37,7 +37,7 @@ GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "
 # Each third party's name, and the only files that may say it.
 HOMES = [
     ("oneTBB", r"\btbb::|#include\s*[<\"](?:oneapi/)?tbb", ["component/core/parallel.cpp"]),
-    ("netCDF", r"\bnc_\w+\s*\(|#include\s*[<\"]netcdf", ["component/io/netcdf.cpp"]),
+    ("netCDF", r"\bnc_\w+\s*\(|#include\s*[<\"]netcdf", ["component/io/netcdf_types.hpp", "component/io/netcdf_reader.cpp", "component/io/netcdf_writer.cpp"]),
     ("yaml-cpp", r"\bYAML::|#include\s*[<\"]yaml-cpp", ["component/lifecycle/settings"]),
     ("cairo", r"\bcairo_\w+|#include\s*[<\"]cairo", ["component/pictures/canvas.cpp"]),
     ("OpenSSL", r"\bEVP_\w+|#include\s*[<\"]openssl", ["component/core/hash.cpp"]),

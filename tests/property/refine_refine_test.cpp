@@ -10,49 +10,27 @@
 
 using namespace delos;
 
-TEST_CASE("refined meshes are sound, Delaunay and meet both bounds") {
+TEST_CASE("refined meshes are sound, Delaunay, meet both bounds and the expected count") {
   for (const auto& sample : sample_spacings()) {
     CAPTURE(sample.name);
-    parallel::Executor exec(2);
-    Monitor monitor;
-    Context context{exec, monitor};
+    TestRun run(2);
     RefineReport report;
-    const Mesh mesh = refine(context, sample.surface, sample.spacing, {}, report);
+    const Mesh mesh = refine(run.context, sample.surface, sample.spacing, {}, report);
     CHECK(summary(validate(mesh, sample.surface)) == "");
     CHECK(report.n_over_size == 0);
     CHECK(report.n_over_radius_edge == 0);
     CHECK(report.n_skeleton_vertices + report.n_inserted == mesh.n_vertices());
-  }
-}
-
-TEST_CASE("the number of vertices is within 3 % of the integral of 2 / (sqrt 3 h^2)") {
-  for (const auto& sample : sample_spacings()) {
-    CAPTURE(sample.name);
-    parallel::Executor exec(2);
-    Monitor monitor;
-    Context context{exec, monitor};
-    RefineReport report;
-    const Mesh mesh = refine(context, sample.surface, sample.spacing, {}, report);
-    const double expected = expected_vertices(exec, sample.surface, sample.spacing);
+    // Within 3 % of the integral of 2 / (sqrt 3 h^2).
+    const double expected = expected_vertices(run.exec, sample.surface, sample.spacing);
     if (sample.is_smooth) CHECK(mesh.n_vertices() == doctest::Approx(expected).epsilon(0.03));
   }
 }
 
 TEST_CASE("1, 2, 5 and 8 threads refine to the same bits") {
-  for (const auto& sample : sample_spacings()) {
-    CAPTURE(sample.name);
-    std::string first;
-    for (const int threads : {1, 2, 5, 8}) {
-      CAPTURE(threads);
-      parallel::Executor exec(threads);
-      Monitor monitor;
-      Context context{exec, monitor};
-      RefineReport report;
-      const std::string bits = digest(refine(context, sample.surface, sample.spacing, {}, report));
-      if (first.empty()) first = bits;
-      CHECK(bits == first);
-    }
-  }
+  check_same_bits_for_any_threads(sample_spacings(), [](Context& context, const auto& sample) {
+    RefineReport report;
+    return digest(refine(context, sample.surface, sample.spacing, {}, report));
+  });
 }
 
 TEST_CASE("tighter bounds are met as well") {

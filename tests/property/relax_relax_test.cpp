@@ -24,13 +24,11 @@ Mesh relaxed(Context& context, const SampleSpacing& sample, RelaxReport& report)
 TEST_CASE("relaxed meshes are sound and Delaunay, and no triangle is obtuse where h is smooth") {
   for (const auto& sample : sample_spacings()) {
     CAPTURE(sample.name);
-    parallel::Executor exec(2);
-    Monitor monitor;
-    Context context{exec, monitor};
+    TestRun run(2);
     RelaxReport report;
-    const Mesh mesh = relaxed(context, sample, report);
+    const Mesh mesh = relaxed(run.context, sample, report);
     CHECK(summary(validate(mesh, sample.surface)) == "");
-    const Quality quality = measure_quality(context, sample.surface, sample.spacing, mesh);
+    const Quality quality = measure_quality(run.context, sample.surface, sample.spacing, mesh);
     CHECK(quality.euler == 2);
     CHECK(quality.n_non_delaunay == 0);
     if (sample.is_smooth) {
@@ -44,20 +42,10 @@ TEST_CASE("relaxed meshes are sound and Delaunay, and no triangle is obtuse wher
 }
 
 TEST_CASE("1, 2, 5 and 8 threads relax to the same bits") {
-  for (const auto& sample : sample_spacings()) {
-    CAPTURE(sample.name);
-    std::string first;
-    for (const int threads : {1, 2, 5, 8}) {
-      CAPTURE(threads);
-      parallel::Executor exec(threads);
-      Monitor monitor;
-      Context context{exec, monitor};
-      RelaxReport report;
-      const std::string bits = digest(relaxed(context, sample, report));
-      if (first.empty()) first = bits;
-      CHECK(bits == first);
-    }
-  }
+  check_same_bits_for_any_threads(sample_spacings(), [](Context& context, const auto& sample) {
+    RelaxReport report;
+    return digest(relaxed(context, sample, report));
+  });
 }
 
 TEST_CASE("relaxation raises the mean quality of a refined mesh") {

@@ -2,11 +2,14 @@
 #pragma once
 // Surfaces and spacings that the tests of refinement and relaxation share: kind and hostile ones,
 // a few thousand vertices each.
+#include <doctest/doctest.h>
+
 #include <cmath>
 #include <string>
 #include <vector>
 
 #include "core/hash.hpp"
+#include "core/progress.hpp"
 #include "geometry/ellipsoid.hpp"
 #include "sizing/spacing.hpp"
 
@@ -18,6 +21,30 @@ struct SampleSpacing {
   SpacingField spacing;
   bool is_smooth;  ///< gradient well below 1: all guarantees of quality hold
 };
+
+/// Threads and monitor of one run.
+struct TestRun {
+  explicit TestRun(int threads) : exec(threads) {}
+  parallel::Executor exec;
+  Monitor monitor;
+  Context context{exec, monitor};
+};
+
+/// digest_of(context, sample) for 1 thread and for 2, 5 and 8: must be equal for every sample.
+template <class DigestOf>
+void check_same_bits_for_any_threads(const std::vector<SampleSpacing>& samples,
+                                     const DigestOf& digest_of) {
+  for (const SampleSpacing& sample : samples) {
+    CAPTURE(sample.name);
+    TestRun one(1);
+    const std::string bits = digest_of(one.context, sample);
+    for (const int threads : {2, 5, 8}) {
+      CAPTURE(threads);
+      TestRun run(threads);
+      CHECK(digest_of(run.context, sample) == bits);
+    }
+  }
+}
 
 /// A table of 1 degree from spacing_m(lon_deg, lat_deg, column, row).
 template <class Function>
