@@ -75,8 +75,7 @@ class TileFront {
   void insert_centres();
   bool advance_front(Index tri);
   int frontal_side(const WorkTriangle& tri) const;
-  double centre_distance(const WorkTriangle& tri, std::size_t side, const Vec3& middle,
-                         const Vec3& inward) const;
+  double centre_distance(const WorkTriangle& tri, const Vec3& middle, const Vec3& inward) const;
   bool place_off_centre(const WorkTriangle& tri, std::size_t side, Vertex& p) const;
   bool find_nudged_cavity(Index tri, Vertex& p);
   bool nudge(Vertex& p) const;
@@ -111,6 +110,8 @@ void TileFront::load(std::size_t tile) {
     mesh_.vertices.push_back(skeleton.mesh.vertices[static_cast<std::size_t>(v)]);
   }
   queue_.clear();
+  mesh_.ball_surface =
+      input_.surface.radii().minCoeff() < kFlattestForPlanes ? &input_.surface : nullptr;
   load_triangles(tile);
 }
 
@@ -150,7 +151,7 @@ void TileFront::load_triangles(std::size_t tile) {
       }
     }
     tri.stamp = 0;
-    mesh_.cache_plane(tri);
+    mesh_.cache_circle(tri);
     mark_bad(tri);
   }
 }
@@ -230,7 +231,7 @@ int TileFront::frontal_side(const WorkTriangle& tri) const {
 
 // How far inward of the side's middle the centre of the surface Delaunay ball lies, measured in
 // the tangent plane there. Infinite when it is beyond the horizon.
-double TileFront::centre_distance(const WorkTriangle& tri, std::size_t side, const Vec3& middle,
+double TileFront::centre_distance(const WorkTriangle& tri, const Vec3& middle,
                                   const Vec3& inward) const {
   const Vertex& a = mesh_.vertex(tri.vertex[0]);
   const Vertex& b = mesh_.vertex(tri.vertex[1]);
@@ -240,7 +241,6 @@ double TileFront::centre_distance(const WorkTriangle& tri, std::size_t side, con
     const double along = normal.dot(middle);
     return along > 0.0 ? normal.dot(inward) / along : std::numeric_limits<double>::infinity();
   }
-  static_cast<void>(side);
   const Vec3 centre = input_.surface.ball_centre(a.position(), b.position(), c.position());
   const Vec3 offset = centre - middle;
   return centre.dot(middle) > 0.0 ? offset.dot(inward) : std::numeric_limits<double>::infinity();
@@ -261,7 +261,7 @@ bool TileFront::place_off_centre(const WorkTriangle& tri, std::size_t side, Vert
   Vec3 inward = normal.cross(edge);
   inward /= std::sqrt(inward.squaredNorm());
   const double h_side = 0.5 * (a.spacing + b.spacing);
-  const double farthest = centre_distance(tri, side, middle, inward);
+  const double farthest = centre_distance(tri, middle, inward);
   if (farthest < kNearestCentre * h_side) return false;
   const auto apex = [&](double h) {
     const double height =
@@ -340,10 +340,14 @@ void TileFront::insert(const Vertex& p) {
 void TileFront::classify_star(Index centre) {
   const Vertex p = mesh_.vertex(centre);
   for (std::size_t first = 0; first < cavity_.size(); first += kLanes) classify_lanes(p, first);
+  if (mesh_.ball_surface == nullptr) return;
+  for (std::size_t i = 0; i < cavity_.size(); ++i) {
+    mesh_.cache_circle(mesh_.at(cavity_.triangles[i]));
+  }
 }
 
 // Caches the planes of up to eight star triangles and marks those over size; the same arithmetic
-// as cache_plane() and mark_bad(), side by side so that the compiler can use vector registers.
+// as cache_circle() and mark_bad(), side by side so that the compiler can use vector registers.
 void TileFront::classify_lanes(const Vertex& p, std::size_t first) {
   alignas(64) double sx[kLanes + 1], sy[kLanes + 1], sz[kLanes + 1], sh[kLanes + 1];
   alignas(64) double ux[kLanes], uy[kLanes], uz[kLanes], bound[kLanes], excess[kLanes];

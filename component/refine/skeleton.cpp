@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "refine/work_mesh.hpp"
 #include "triangulation/delaunay.hpp"
+#include "triangulation/flip.hpp"
 
 namespace delos {
 namespace {
@@ -111,11 +113,14 @@ Index find_side(const Mesh& mesh, const std::vector<Index>& at_vertex, Index a, 
   return kNone;
 }
 
-Mesh mesh_of(Context& context, const std::vector<Vertex>& vertices) {
+Mesh mesh_of(Context& context, const Ellipsoid& surface, const std::vector<Vertex>& vertices) {
   std::vector<Vec3> points(vertices.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = vertices[i].position();
   Mesh mesh = delaunay(context.exec, points);
   mesh.vertices = vertices;
+  if (surface.radii().minCoeff() < kFlattestForPlanes) {
+    restore_delaunay_everywhere(context.exec, mesh, surface);
+  }
   return mesh;
 }
 
@@ -142,12 +147,12 @@ std::size_t split_missing_segments(Builder& builder, const Mesh& mesh) {
 // The Delaunay mesh in which every side is a chain of edges: missing segments are halved until
 // none is missing (a conforming Delaunay triangulation).
 Mesh conforming_mesh(Context& context, Builder& builder) {
-  Mesh mesh = mesh_of(context, builder.vertices);
+  Mesh mesh = mesh_of(context, builder.surface, builder.vertices);
   for (int round = 0; split_missing_segments(builder, mesh) > 0; ++round) {
     DELOS_CHECK(round < kMaxSplitRounds, ErrorKind::input,
                 "the spacing changes too steeply for the sides of the tiles to be meshed. Limit "
                 "its gradient (sizing.gradient_limit, 0.1 to 0.3 are usual).");
-    mesh = mesh_of(context, builder.vertices);
+    mesh = mesh_of(context, builder.surface, builder.vertices);
   }
   return mesh;
 }

@@ -2,7 +2,15 @@
 #include "refine/work_mesh.hpp"
 
 namespace delos {
-void WorkMesh::cache_plane(WorkTriangle& tri) const {
+void WorkMesh::cache_circle(WorkTriangle& tri) const {
+  if (ball_surface != nullptr) {
+    const Vec3 corner = vertex(tri.vertex[0]).position();
+    const Vec3 centre = ball_surface->ball_centre(corner, vertex(tri.vertex[1]).position(),
+                                                  vertex(tri.vertex[2]).position());
+    tri.plane = {centre.x(), centre.y(), centre.z()};
+    tri.bound = (corner - centre).squaredNorm();
+    return;
+  }
   const Vertex& a = vertex(tri.vertex[0]);
   const Vertex& b = vertex(tri.vertex[1]);
   const Vertex& c = vertex(tri.vertex[2]);
@@ -49,7 +57,18 @@ bool WorkMesh::find_cavity(Index seed, const Vec3& p, Cavity& cavity) const {
     }
   }
   cavity.start.push_back(cavity.start.front());
-  return cavity.size() == cavity.triangles.size() + 2;
+  return cavity.size() == cavity.triangles.size() + 2 &&
+         (ball_surface == nullptr || is_star(p, cavity));
+}
+
+bool WorkMesh::is_star(const Vec3& p, const Cavity& cavity) const {
+  const Vec3 normal = p.cwiseProduct(ball_surface->inverse_square());
+  for (std::size_t i = 0; i < cavity.size(); ++i) {
+    const Vec3 from = vertex(cavity.start[i]).position() - p;
+    const Vec3 to = vertex(cavity.start[i + 1]).position() - p;
+    if (!(from.cross(to).dot(normal) > 0.0)) return false;
+  }
+  return true;
 }
 
 void WorkMesh::fill_cavity(Cavity& cavity, Index new_vertex) {

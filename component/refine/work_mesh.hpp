@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "geometry/ellipsoid.hpp"
 #include "geometry/predicates.hpp"
 #include "triangulation/mesh.hpp"
 
@@ -14,6 +15,9 @@ namespace delos {
 
 /// One cache line. The plane through the corners is cached as the vector u with u.p = 1 on it, so
 /// that a point p is inside the circumcircle iff u.p > 1: three products instead of a determinant.
+///
+/// On bodies flatter than kFlattestForPlanes the plane test is too anisotropic; there the same four
+/// numbers hold the surface Delaunay ball: its centre, and the square of its radius.
 struct alignas(64) WorkTriangle {
   std::array<double, 3> plane;
   double bound;                 ///< of the rounding error of u.p - 1
@@ -32,6 +36,11 @@ inline double plane_bound(double ux, double uy, double uz, double squares_over_d
          (16.0 * (std::abs(ux) + std::abs(uy) + std::abs(uz)) + 8.0 * std::abs(squares_over_d));
 }
 
+/// Least over largest radius above which planes do. At 0.67 balls raise the mean area-length from
+/// .99817 to .99826 and the least edge after the springs from .65 to .71 h, for 0.7 of the speed;
+/// at 0.4 planes misplace a tenth of the vertices.
+inline constexpr double kFlattestForPlanes = 0.8;
+
 inline constexpr Index triangle_of(Index link) { return link >> 2; }
 inline constexpr std::size_t side_of(Index link) { return static_cast<std::size_t>(link & 3); }
 
@@ -48,6 +57,8 @@ class WorkMesh {
  public:
   std::vector<Vertex> vertices;
   std::vector<WorkTriangle> triangles;
+  /// Set: circumcircles are judged by surface Delaunay balls on this surface, else by planes.
+  const Ellipsoid* ball_surface = nullptr;
   /// Local triangle at a half-segment of this tile, kept up to date: (link code) by local slot.
   std::vector<Index> border_links;
 
@@ -57,6 +68,7 @@ class WorkMesh {
 
   /// Whether p, to become the next vertex, is inside the circumcircle of `tri`.
   bool conflicts(const WorkTriangle& tri, const Vec3& p) const {
+    if (ball_surface != nullptr) return is_in_ball(tri, p);
     const double s = tri.plane[0] * p.x() + tri.plane[1] * p.y() + tri.plane[2] * p.z() - 1.0;
     if (s > tri.bound) return true;
     if (s < -tri.bound) return false;
@@ -71,11 +83,19 @@ class WorkMesh {
   /// triangle i is cavity.triangles[i], with border edge i opposite to the new vertex (corner 0).
   void fill_cavity(Cavity& cavity, Index new_vertex);
 
-  /// Recomputes the cached plane of a triangle from its corners.
-  void cache_plane(WorkTriangle& tri) const;
+  /// Recomputes the cached plane or ball of a triangle from its corners.
+  void cache_circle(WorkTriangle& tri) const;
 
  private:
   bool conflicts_exactly(const WorkTriangle& tri, const Vec3& p) const;
+  static bool is_in_ball(const WorkTriangle& tri, const Vec3& p) {
+    constexpr double kTie = 1.0 - 1e-11;  // points on the ball are outside, despite rounding
+    const double dx = p.x() - tri.plane[0], dy = p.y() - tri.plane[1], dz = p.z() - tri.plane[2];
+    return dx * dx + dy * dy + dz * dz < kTie * tri.bound;
+  }
+  /// Whether every triangle of the star that p would have is counter-clockwise seen from outside;
+  /// with planes convexity sees to that, with balls it must be looked at.
+  bool is_star(const Vec3& p, const Cavity& cavity) const;
   mutable std::vector<Index> stack_;
 };
 

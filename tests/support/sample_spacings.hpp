@@ -62,6 +62,7 @@ SpacingField sample_table(const Ellipsoid& surface, const Function& spacing_m) {
 inline std::vector<SampleSpacing> sample_spacings() {
   const Ellipsoid earth = Ellipsoid::sphere(6371220.0), wgs84 = Ellipsoid::wgs84();
   const Ellipsoid triaxial(Vec3(1.2, 1.0, 0.8) * 6371220.0, Vec3(1e6, -2e6, 3e6));
+  const Ellipsoid flat(Vec3(1.0, 0.7, 0.4) * 6371220.0, Vec3(0, 0, 0));
   const auto patch = [](double lon, double lat, Index, Index) {
     const double d2 = (lon + 40.0) * (lon + 40.0) + (lat - 35.0) * (lat - 35.0);
     return 1e3 * (600.0 - 480.0 * std::exp(-d2 / 800.0));
@@ -76,6 +77,7 @@ inline std::vector<SampleSpacing> sample_spacings() {
   return {{"uniform 240 km sphere", earth, SpacingField::constant(earth, 240e3), true},
           {"uniform 300 km WGS84", wgs84, SpacingField::constant(wgs84, 300e3), true},
           {"uniform 300 km triaxial", triaxial, SpacingField::constant(triaxial, 300e3), true},
+          {"uniform 250 km, 1 : 0.7 : 0.4", flat, SpacingField::constant(flat, 250e3), true},
           {"patch 600 to 120 km", earth, sample_table(earth, patch), true},
           {"finest at the pole", earth, sample_table(earth, pole), true},
           {"uniform 3000 km", earth, SpacingField::constant(earth, 3000e3), false},
