@@ -7,6 +7,7 @@
 // the slots of its own indices; reductions combine block results in block order.
 #include <cstdint>
 #include <functional>
+#include <iterator>
 #include <memory>
 #include <utility>
 #include <vector>
@@ -78,6 +79,24 @@ double sum(Executor& exec, std::int64_t n, std::int64_t grain, Term&& term) {
         return partial;
       },
       [](double a, double b) { return a + b; });
+}
+
+/// What body(begin, end, found) appends to `found`, block after block: for rare finds in long
+/// lists.
+template <class T, class Body>
+std::vector<T> collect(Executor& exec, std::int64_t n, std::int64_t grain, Body&& body) {
+  return reduce(
+      exec, n, grain, std::vector<T>{},
+      [&](std::int64_t begin, std::int64_t end) {
+        std::vector<T> found;
+        body(begin, end, found);
+        return found;
+      },
+      [](std::vector<T> all, std::vector<T> more) {
+        all.insert(all.end(), std::make_move_iterator(more.begin()),
+                   std::make_move_iterator(more.end()));
+        return all;
+      });
 }
 
 /// offsets[i] = count(0) + ... + count(i - 1), n + 1 values; offsets[n] is the total.

@@ -37,20 +37,12 @@ Violation violation(const RefineOptions& options, const Mesh& mesh, Index tri) {
 // Ids of the triangles that break a bound, ascending.
 std::vector<Index> find_violations(parallel::Executor& exec, const RefineOptions& options,
                                    const Mesh& mesh) {
-  return parallel::reduce(
-      exec, mesh.n_triangles(), kScanGrain, std::vector<Index>{},
-      [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Index> found;
-        for (std::int64_t tri = begin; tri < end; ++tri) {
-          if (violation(options, mesh, static_cast<Index>(tri)).any()) {
-            found.push_back(static_cast<Index>(tri));
-          }
+  return parallel::collect<Index>(
+      exec, mesh.n_triangles(), kScanGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
+          if (violation(options, mesh, tri).any()) found.push_back(tri);
         }
-        return found;
-      },
-      [](std::vector<Index> all, std::vector<Index> more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
       });
 }
 

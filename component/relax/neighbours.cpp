@@ -36,10 +36,9 @@ std::size_t fill_row(const Mesh& mesh, Index vertex, Index first,
 NeighbourRows::NeighbourRows(parallel::Executor& exec, const Mesh& mesh)
     : rows_(mesh.vertices.size()) {
   const std::vector<Index> at_vertex = triangle_at_vertex(mesh);
-  overflow_ = parallel::reduce(
-      exec, mesh.n_vertices(), kRowGrain, std::vector<Overflow>{},
-      [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Overflow> found;
+  overflow_ = parallel::collect<Overflow>(
+      exec, mesh.n_vertices(), kRowGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Overflow>& found) {
         for (std::int64_t i = begin; i < end; ++i) {
           const auto v = static_cast<std::size_t>(i);
           const auto vertex = static_cast<Index>(i);
@@ -48,11 +47,6 @@ NeighbourRows::NeighbourRows(parallel::Executor& exec, const Mesh& mesh)
             fill_row(mesh, vertex, at_vertex[v], rows_[v], &found.back().neighbours);
           }
         }
-        return found;
-      },
-      [](std::vector<Overflow> all, std::vector<Overflow> more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
       });
 }
 

@@ -26,11 +26,6 @@ constexpr std::size_t kHostileShare = 50;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
-std::vector<Index> concatenate(std::vector<Index> all, const std::vector<Index>& more) {
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
-}
-
 double score(const Mesh& mesh, Index tri) {
   const auto& v = mesh.triangle(tri).vertex;
   return triangle_score(mesh.vertices[at(v[0])], mesh.vertices[at(v[1])], mesh.vertices[at(v[2])]);
@@ -38,16 +33,13 @@ double score(const Mesh& mesh, Index tri) {
 
 // Ids of the triangles below the target, ascending.
 std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, double target) {
-  return parallel::reduce(
-      exec, mesh.n_triangles(), kScanGrain, std::vector<Index>{},
-      [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Index> found;
+  return parallel::collect<Index>(
+      exec, mesh.n_triangles(), kScanGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
           if (score(mesh, tri) < target) found.push_back(tri);
         }
-        return found;
-      },
-      concatenate);
+      });
 }
 
 // Picks disjoint patches: lists of free vertices whose triangles share no vertex.

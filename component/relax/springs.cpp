@@ -99,10 +99,9 @@ bool is_flat_or_turned(const Triangle& t, const std::vector<Vertex>& vertices) {
 // Triangles that a move has spoilt, ascending.
 std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
                                const std::vector<Vertex>& moved) {
-  return parallel::reduce(
-      exec, mesh.n_triangles(), kTurnGrain, std::vector<Index>{},
-      [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Index> found;
+  return parallel::collect<Index>(
+      exec, mesh.n_triangles(), kTurnGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
           const Triangle& t = mesh.triangle(tri);
           if (!is_flat_or_turned(t, moved)) continue;
@@ -112,11 +111,6 @@ std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
           });
           if (has_moved) found.push_back(tri);
         }
-        return found;
-      },
-      [](std::vector<Index> all, const std::vector<Index>& more) {
-        all.insert(all.end(), more.begin(), more.end());
-        return all;
       });
 }
 

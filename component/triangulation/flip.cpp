@@ -114,21 +114,18 @@ std::int64_t restore_delaunay(Mesh& mesh, const Ellipsoid& surface, std::span<co
 std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
                                          const Ellipsoid& surface, std::vector<Index>* touched) {
   constexpr std::int64_t kGrain = 8192;  // about 0.5 ms
-  const std::int64_t n = mesh.n_triangles();
-  std::vector<std::vector<Index>> found(static_cast<std::size_t>((n + kGrain - 1) / kGrain));
-  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Index>& list = found[static_cast<std::size_t>(begin / kGrain)];
-    for (auto tri = static_cast<Index>(begin); tri < static_cast<Index>(end); ++tri) {
-      if (is_clearly_acute(mesh, mesh.triangle(tri))) continue;
-      for (int side = 0; side < 3; ++side) {
-        if (!is_illegal(mesh, surface, tri, side)) continue;
-        list.push_back(tri);
-        break;
-      }
-    }
-  });
-  std::vector<Index> seeds;
-  for (const std::vector<Index>& list : found) seeds.insert(seeds.end(), list.begin(), list.end());
+  const std::vector<Index> seeds = parallel::collect<Index>(
+      exec, mesh.n_triangles(), kGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
+          if (is_clearly_acute(mesh, mesh.triangle(tri))) continue;
+          for (int side = 0; side < 3; ++side) {
+            if (!is_illegal(mesh, surface, tri, side)) continue;
+            found.push_back(tri);
+            break;
+          }
+        }
+      });
   return restore_delaunay(mesh, surface, seeds, touched);
 }
 

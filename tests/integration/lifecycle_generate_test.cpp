@@ -3,14 +3,13 @@
 
 #include <doctest/doctest.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 
 #include "core/error.hpp"
 #include "lifecycle/estimate.hpp"
 #include "lifecycle/grid_file.hpp"
 #include "lifecycle/settings_tree.hpp"
+#include "support/temporary_folder.hpp"
 
 using namespace delos;
 
@@ -23,16 +22,6 @@ struct Run {
   parallel::Executor exec;
   Monitor monitor;
   Context context{exec, monitor};
-};
-
-struct Folder {
-  fs::path path;
-  Folder() {
-    std::string name = (fs::temp_directory_path() / "delos_generate_XXXXXX").string();
-    REQUIRE(mkdtemp(name.data()) != nullptr);
-    path = name;
-  }
-  ~Folder() { fs::remove_all(path); }
 };
 
 Settings settings_of(const std::string& yaml) {
@@ -80,11 +69,11 @@ TEST_CASE("the same configuration gives the same bits for 1, 2, 5 and 8 threads"
 TEST_CASE("all files of a run are read back with the digest and certificate of the grid") {
   for (const std::string surface : {"{shape: sphere}", "{shape: wgs84}", kTriaxial}) {
     CAPTURE(surface);
-    const Folder folder;
+    const testing::TemporaryFolder folder;
     Run run;
     const Settings settings = settings_of(yaml_of(surface, "output: {spacing: true}\n"));
     const Product product = generate(run.context, settings, {});
-    const std::string directory = (folder.path / "new" / "deep").string();
+    const std::string directory = folder.file("new/deep");
     const auto paths = write_outputs(run.context, output_content(product, "test"), directory);
     CHECK(paths.size() == 7);
     for (const std::string& path : paths) CHECK(fs::file_size(path) > 0);
@@ -106,7 +95,7 @@ TEST_CASE("all files of a run are read back with the digest and certificate of t
 }
 
 TEST_CASE("a run that fails while it writes leaves no folder behind") {
-  const Folder folder;
+  const testing::TemporaryFolder folder;
   Run run;
   const Product product = generate(
       run.context, settings_of(yaml_of("{shape: sphere}", "output: {pictures: [globe]}\n")), {});
@@ -114,8 +103,8 @@ TEST_CASE("a run that fails while it writes leaves no folder behind") {
   content.draw = [](const std::string&, const std::string&) {
     throw Error(ErrorKind::output, "the disk is full");
   };
-  CHECK_THROWS_AS(write_outputs(run.context, content, (folder.path / "a" / "b").string()), Error);
-  CHECK(fs::is_empty(folder.path));
+  CHECK_THROWS_AS(write_outputs(run.context, content, folder.file("a/b")), Error);
+  CHECK(fs::is_empty(folder.file("")));
 }
 
 TEST_CASE("a grid too large is refused with its size before anything is allocated") {
@@ -128,13 +117,12 @@ TEST_CASE("a grid too large is refused with its size before anything is allocate
 }
 
 TEST_CASE("an output folder that can't be is refused before the computation") {
-  const Folder folder;
-  std::ofstream(folder.path / "file") << "no folder";
-  CHECK(kind_of_error(yaml_of("{shape: sphere}"), (folder.path / "file" / "out").string()) ==
-        ErrorKind::output);
-  CHECK_THROWS_AS(check_output_folder(folder.path.string(), 1e18), Error);
-  CHECK_NOTHROW(check_output_folder((folder.path / "new" / "deep").string(), 1e3));
-  CHECK(std::distance(fs::directory_iterator(folder.path), {}) == 1);
+  const testing::TemporaryFolder folder;
+  folder.write("file", "no folder");
+  CHECK(kind_of_error(yaml_of("{shape: sphere}"), folder.file("file/out")) == ErrorKind::output);
+  CHECK_THROWS_AS(check_output_folder(folder.file(""), 1e18), Error);
+  CHECK_NOTHROW(check_output_folder(folder.file("new/deep"), 1e3));
+  CHECK(std::distance(fs::directory_iterator(folder.file("")), {}) == 1);
 }
 
 TEST_CASE("requirements that are missed are an error that names the worst element") {
