@@ -62,7 +62,7 @@ void read_mpas_into(GridFile& out) {
         return std::all_of(cells.begin(), cells.end(), [](Index cell) { return cell != kNone; });
       });
   if (!is_closed) return;
-  std::vector<Vertex> vertices(grid.cell_position.size());
+  Array<Vertex> vertices(grid.cell_position.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     set_position(vertices[i], grid.cell_position[i]);
     vertices[i].spacing =
@@ -82,8 +82,7 @@ Corners face_corners(const UgridMesh& ugrid) {
 }
 
 /// The triangles of a Voronoi diagram: the three faces around each node, counter-clockwise.
-Corners node_faces(const std::string& path, const UgridMesh& ugrid,
-                   const std::vector<Vertex>& centres) {
+Corners node_faces(const std::string& path, const UgridMesh& ugrid, const Array<Vertex>& centres) {
   Corners faces(ugrid.node.size(), {kNone, kNone, kNone});
   for (std::size_t face = 0; face + 1 < ugrid.nodes_on_face.offsets.size(); ++face) {
     for (const Index node : ugrid.nodes_on_face.row(static_cast<std::int64_t>(face))) {
@@ -105,8 +104,8 @@ Corners node_faces(const std::string& path, const UgridMesh& ugrid,
   return faces;
 }
 
-std::vector<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lon_lat) {
-  std::vector<Vertex> out(lon_lat.size());
+Array<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lon_lat) {
+  Array<Vertex> out(lon_lat.size());
   for (std::size_t i = 0; i < out.size(); ++i) {
     set_position(out[i], file.surface.point(lon_lat[i], file.latitude));
     out[i].spacing = 0.0;
@@ -130,7 +129,7 @@ void read_ugrid_into(GridFile& out) {
   DELOS_CHECK(ugrid.face_centre.size() == n_faces, ErrorKind::input, out.path,
               ": the faces are no triangles and have no face_coordinates, so the points of the "
               "Voronoi diagram are not known.");
-  std::vector<Vertex> centres = surface_points(out, ugrid.face_centre);
+  Array<Vertex> centres = surface_points(out, ugrid.face_centre);
   const Corners corners = node_faces(out.path, ugrid, centres);
   const bool is_closed =
       std::none_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
@@ -175,7 +174,7 @@ GridFile read_grid_file(Context& context, const std::string& path) {
   return out;
 }
 
-Mesh mesh_from_triangles(std::vector<Vertex> vertices, const Corners& corners) {
+Mesh mesh_from_triangles(Array<Vertex> vertices, const Corners& corners) {
   struct Side {
     Index low, high, tri, side;
     bool operator<(const Side& other) const {

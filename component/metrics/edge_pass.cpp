@@ -99,7 +99,7 @@ void measure_edge(const Subject& subject, const Workspace& work, const Side& sid
 EdgeSums measure_edges_of(const Subject& subject, const Workspace& work, std::int64_t begin,
                           std::int64_t end) {
   std::vector<Side> sides;
-  std::vector<Vertex> places;
+  Array<Vertex> places;
   for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
     for (int k = 0; k < 3; ++k) {
       if (subject.mesh.triangle(tri).neighbour[at(k)] <= tri) continue;

@@ -8,8 +8,7 @@
 namespace delos {
 namespace {
 
-constexpr std::int64_t kScanGrain = 16384;  // triangles a task: about half a millisecond
-constexpr int kMaxRounds = 60;              // each round at least halves what is left in practice
+constexpr int kMaxRounds = 60;  // each round at least halves what is left in practice
 
 struct Violation {
   bool over_size = false;
@@ -34,16 +33,9 @@ Violation violation(const RefineOptions& options, const Mesh& mesh, Index tri) {
           product > ratio * ratio * std::min({lab, lac, lbc}) * cross};
 }
 
-// Ids of the triangles that break a bound, ascending.
-std::vector<Index> find_violations(parallel::Executor& exec, const RefineOptions& options,
-                                   const Mesh& mesh) {
-  return parallel::collect<Index>(
-      exec, mesh.n_triangles(), kScanGrain,
-      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
-        for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
-          if (violation(options, mesh, tri).any()) found.push_back(tri);
-        }
-      });
+void make_unique(std::vector<Index>& ids) {
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
 }
 
 void append_star(const Mesh& mesh, Index vertex, Index at_vertex, std::vector<Index>& out) {
@@ -57,15 +49,21 @@ void append_star(const Mesh& mesh, Index vertex, Index at_vertex, std::vector<In
 
 }  // namespace
 
-BoundsReport enforce_bounds(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
-                            const RefineOptions& options, Mesh& mesh) {
+BoundsReport enforce_bounds(Context& context, const BoundsInput& input, std::vector<Index> suspects,
+                            Mesh& mesh) {
+  const auto& [surface, spacing, options] = input;
+  const auto is_sound = [&, &opts = options](Index tri) {
+    return !violation(opts, mesh, tri).any();
+  };
   BoundsReport report;
-  std::vector<Index> todo = find_violations(context.exec, options, mesh);
+  make_unique(suspects);
+  std::erase_if(suspects, is_sound);
+  std::vector<Index> todo = suspects;
   for (int round = 0; round < kMaxRounds && !todo.empty(); ++round) {
     context.monitor.check_cancelled();
     std::vector<Index> touched;
     for (const Index tri : todo) {
-      if (!violation(options, mesh, tri).any()) continue;
+      if (is_sound(tri)) continue;
       const auto& v = mesh.triangle(tri).vertex;
       const Vec3 p =
           surface.ball_centre(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]));
@@ -75,11 +73,12 @@ BoundsReport enforce_bounds(Context& context, const Ellipsoid& surface, const Sp
       ++report.n_inserted;
       append_star(mesh, vertex, mesh.n_triangles() - 1, touched);
     }
-    std::sort(touched.begin(), touched.end());
-    touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+    make_unique(touched);
+    suspects.insert(suspects.end(), touched.begin(), touched.end());
     todo = std::move(touched);
   }
-  for (const Index tri : find_violations(context.exec, options, mesh)) {
+  make_unique(suspects);
+  for (const Index tri : suspects) {
     const Violation broken = violation(options, mesh, tri);
     report.n_over_size += broken.over_size ? 1 : 0;
     report.n_over_radius_edge += broken.over_radius_edge ? 1 : 0;

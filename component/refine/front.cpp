@@ -15,6 +15,7 @@ namespace {
 constexpr double kLongestFront = 1.45;   // a side longer than this times h is no front
 constexpr double kLowestApex = 0.5;      // least height of an off-centre over its side, times h
 constexpr double kNearestCentre = 1e-3;  // a circumcentre nearer to the side (times h) is behind it
+constexpr double kSameSpacing = 1e-3;    // relative difference not worth placing an apex again
 constexpr double kNudgeReach = 1.3;      // cavity vertices nearer than this times h pull
 constexpr double kNudgeGain = 2.0;       // over their number: the length of the spring step
 constexpr double kNudgeLeast = 0.02;     // a shorter step (times h) is not worth a second cavity
@@ -28,6 +29,67 @@ struct Candidate {
 };
 
 Vec3 sub(const Vertex& a, const Vertex& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
+
+// Up to eight triangles (p, i, i + 1) of a star side by side, so that the compiler can use vector
+// registers: the corners less p, and what is computed for each triangle.
+struct StarLanes {
+  alignas(64) double x[kLanes + 1], y[kLanes + 1], z[kLanes + 1], spacing[kLanes + 1];
+};
+struct CircleLanes {
+  alignas(64) double x[kLanes], y[kLanes], z[kLanes], bound[kLanes];  // see WorkTriangle
+  alignas(64) double size_excess[kLanes], edge_excess[kLanes];        // > 0: off the bound
+};
+
+// The same arithmetic as cache_circle() for planes.
+void plane_lanes(const Vertex& p, const StarLanes& s, CircleLanes& out) {
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double nx = s.y[i] * s.z[i + 1] - s.z[i] * s.y[i + 1];
+    const double ny = s.z[i] * s.x[i + 1] - s.x[i] * s.z[i + 1];
+    const double nz = s.x[i] * s.y[i + 1] - s.y[i] * s.x[i + 1];
+    const double aa = s.x[i] * s.x[i] + s.y[i] * s.y[i] + s.z[i] * s.z[i];
+    const double bb = s.x[i + 1] * s.x[i + 1] + s.y[i + 1] * s.y[i + 1] + s.z[i + 1] * s.z[i + 1];
+    const double inverse = 1.0 / (nx * p.x + ny * p.y + nz * p.z);
+    out.x[i] = nx * inverse;
+    out.y[i] = ny * inverse;
+    out.z[i] = nz * inverse;
+    out.bound[i] = plane_bound(out.x[i], out.y[i], out.z[i], (aa + bb) * inverse);
+  }
+}
+
+// Surface Delaunay balls as Ellipsoid::ball_centre() finds them: from the circumcentre along the
+// normal n to the surface, the outer root of |q + t n|_W = 1, W = diag(1 / r^2).
+void ball_lanes(const Vertex& p, const Vec3& weight, const StarLanes& s, CircleLanes& out) {
+  const double wx = weight.x(), wy = weight.y(), wz = weight.z();
+  for (std::size_t i = 0; i < kLanes; ++i) {
+    const double ux = s.x[i], uy = s.y[i], uz = s.z[i];
+    const double vx = s.x[i + 1], vy = s.y[i + 1], vz = s.z[i + 1];
+    const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
+    const double uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz;
+    const double half = 0.5 / (nx * nx + ny * ny + nz * nz);
+    // Circumcentre - p = (|u|^2 v x n + |v|^2 n x u) / (2 |n|^2).
+    const double mx = uu * vx - vv * ux, my = uu * vy - vv * uy, mz = uu * vz - vv * uz;
+    const double ox = half * (my * nz - mz * ny), oy = half * (mz * nx - mx * nz);
+    const double oz = half * (mx * ny - my * nx);
+    const double qx = p.x + ox, qy = p.y + oy, qz = p.z + oz;
+    const double a = wx * nx * nx + wy * ny * ny + wz * nz * nz;
+    const double b = wx * nx * qx + wy * ny * qy + wz * nz * qz;
+    const double c = wx * qx * qx + wy * qy * qy + wz * qz * qz - 1.0;
+    const double discriminant = b * b - a * c;
+    const double root = std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
+    const double t = b > 0.0 ? -c / (b + root) : (root - b) / a;
+    // A line that misses the surface belongs to a triangle as large as the body; its direction
+    // stands in.
+    const bool is_hit = discriminant >= 0.0;
+    const double x = is_hit ? qx + t * nx : nx, y = is_hit ? qy + t * ny : ny;
+    const double z = is_hit ? qz + t * nz : nz;
+    const double scale = 1.0 / std::sqrt(wx * x * x + wy * y * y + wz * z * z);
+    out.x[i] = x * scale;
+    out.y[i] = y * scale;
+    out.z[i] = z * scale;
+    const double dx = out.x[i] - p.x, dy = out.y[i] - p.y, dz = out.z[i] - p.z;
+    out.bound[i] = dx * dx + dy * dy + dz * dz;
+  }
+}
 
 }  // namespace
 
@@ -51,7 +113,9 @@ class TileFront {
         mesh_(scratch.mesh),
         cavity_(scratch.cavity),
         queue_(scratch.queue),
-        local_of_triangle_(scratch.local_of_triangle) {}
+        local_of_triangle_(scratch.local_of_triangle),
+        size_factor_(4.0 / 27.0 * input.options.size_ratio * input.options.size_ratio),
+        edge_factor_(4.0 * input.options.radius_edge * input.options.radius_edge) {}
 
   TileMesh run(std::size_t tile) {
     load(tile);
@@ -68,7 +132,7 @@ class TileFront {
   void enqueue_if_bad(Index tri) {
     if (is_bad(mesh_.at(tri))) queue_.push_back({tri, mesh_.at(tri).stamp});
   }
-  static bool is_bad(const WorkTriangle& tri) { return (tri.stamp & 1U) != 0; }
+  static bool is_bad(const WorkTriangle& tri) { return (tri.stamp & WorkTriangle::kOverSize) != 0; }
   bool is_front(Index link) const { return link < 0 || !is_bad(mesh_.at(triangle_of(link))); }
 
   void drain();
@@ -82,9 +146,9 @@ class TileFront {
   bool border_allows(const Vec3& p) const;
   void insert(const Vertex& p);
   void classify_star(Index centre);
-  void classify_lanes(const Vertex& centre, std::size_t first);
+  void flag_lanes(const Vertex& p, const StarLanes& s, CircleLanes& out) const;
   void queue_fronts();
-  void mark_bad(WorkTriangle& tri) const;
+  void flag(WorkTriangle& tri) const;
   TileMesh take();
 
   const FrontInput& input_;
@@ -93,6 +157,7 @@ class TileFront {
   std::vector<Candidate>& queue_;
   std::vector<Index>& local_of_triangle_;
   std::vector<Index> skeleton_vertices_;
+  double size_factor_, edge_factor_;  // of the two bounds, squared
 };
 
 void TileFront::load(std::size_t tile) {
@@ -152,20 +217,23 @@ void TileFront::load_triangles(std::size_t tile) {
     }
     tri.stamp = 0;
     mesh_.cache_circle(tri);
-    mark_bad(tri);
+    flag(tri);
   }
 }
 
-// Bit 0 of the stamp: sqrt(3) * circumradius > alpha * spacing (mean of the corners).
-void TileFront::mark_bad(WorkTriangle& tri) const {
+// Sets the stamp's flags. Both bounds compare squares, with R^2 = product / (4 |cross|^2).
+void TileFront::flag(WorkTriangle& tri) const {
   const Vertex& a = mesh_.vertex(tri.vertex[0]);
   const Vertex& b = mesh_.vertex(tri.vertex[1]);
   const Vertex& c = mesh_.vertex(tri.vertex[2]);
   const Vec3 ab = sub(b, a), ac = sub(c, a), bc = sub(c, b);
   const double h = a.spacing + b.spacing + c.spacing;
-  const double alpha = input_.options.size_ratio;
-  const double product = ab.squaredNorm() * ac.squaredNorm() * bc.squaredNorm();
-  if (product > alpha * alpha * (4.0 / 27.0) * h * h * ab.cross(ac).squaredNorm()) tri.stamp |= 1U;
+  const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), aa = bc.squaredNorm();
+  const double product = aa * bb * cc, cross = ab.cross(ac).squaredNorm();
+  if (product > size_factor_ * h * h * cross) tri.stamp |= WorkTriangle::kOverSize;
+  if (product > edge_factor_ * std::min({aa, bb, cc}) * cross) {
+    tri.stamp |= WorkTriangle::kOverRadiusEdge;
+  }
 }
 
 // First in, first out: fronts advance evenly from all sides.
@@ -230,20 +298,26 @@ int TileFront::frontal_side(const WorkTriangle& tri) const {
 }
 
 // How far inward of the side's middle the centre of the surface Delaunay ball lies, measured in
-// the tangent plane there. Infinite when it is beyond the horizon.
+// the tangent plane there: where the line of points equidistant from the corners, through the
+// circumcentre and along the normal, meets that plane. Infinite when it does so beyond the horizon.
 double TileFront::centre_distance(const WorkTriangle& tri, const Vec3& middle,
                                   const Vec3& inward) const {
   const Vertex& a = mesh_.vertex(tri.vertex[0]);
-  const Vertex& b = mesh_.vertex(tri.vertex[1]);
-  const Vertex& c = mesh_.vertex(tri.vertex[2]);
-  if (input_.surface.is_sphere()) {
-    const Vec3 normal = sub(b, a).cross(sub(c, a));
-    const double along = normal.dot(middle);
-    return along > 0.0 ? normal.dot(inward) / along : std::numeric_limits<double>::infinity();
+  if (mesh_.ball_surface != nullptr) {
+    const Vec3 centre(tri.plane[0], tri.plane[1], tri.plane[2]);
+    return centre.dot(middle) > 0.0 ? (centre - middle).dot(inward)
+                                    : std::numeric_limits<double>::infinity();
   }
-  const Vec3 centre = input_.surface.ball_centre(a.position(), b.position(), c.position());
+  const Vec3 u = sub(mesh_.vertex(tri.vertex[1]), a), v = sub(mesh_.vertex(tri.vertex[2]), a);
+  const Vec3 n = u.cross(v);
+  const Vec3 upward = middle.cwiseProduct(input_.surface.inverse_square());
+  const double along = n.dot(upward);
+  if (!(along > 0.0)) return std::numeric_limits<double>::infinity();
+  if (input_.surface.is_sphere()) return n.dot(inward) / along;  // that line meets the centre
+  const Vec3 centre = a.position() + (u.squaredNorm() * v.cross(n) + v.squaredNorm() * n.cross(u)) /
+                                         (2.0 * n.squaredNorm());
   const Vec3 offset = centre - middle;
-  return centre.dot(middle) > 0.0 ? offset.dot(inward) : std::numeric_limits<double>::infinity();
+  return offset.dot(inward) - n.dot(inward) * (offset.dot(upward) / along);
 }
 
 // The apex of the isosceles triangle of the wanted size over the side, placed along the surface
@@ -256,10 +330,9 @@ bool TileFront::place_off_centre(const WorkTriangle& tri, std::size_t side, Vert
   const Vertex& b = mesh_.vertex(tri.vertex[static_cast<std::size_t>(previous_corner(k))]);
   const Vec3 edge = sub(b, a);
   const double quarter_square = 0.25 * edge.squaredNorm();
-  const Vec3 middle = surface.project(a.position() + b.position());
-  const Vec3 normal = middle.cwiseProduct(surface.inverse_square());
-  Vec3 inward = normal.cross(edge);
-  inward /= std::sqrt(inward.squaredNorm());
+  const Vec3 middle = 0.5 * (a.position() + b.position());
+  Vec3 inward = middle.cwiseProduct(surface.inverse_square()).cross(edge);
+  inward *= 1.0 / std::sqrt(inward.squaredNorm());
   const double h_side = 0.5 * (a.spacing + b.spacing);
   const double farthest = centre_distance(tri, middle, inward);
   if (farthest < kNearestCentre * h_side) return false;
@@ -270,7 +343,7 @@ bool TileFront::place_off_centre(const WorkTriangle& tri, std::size_t side, Vert
   };
   Vec3 q = apex(h_side);
   p.spacing = input_.spacing.at(q.x(), q.y(), q.z());
-  q = apex(0.5 * (h_side + p.spacing));
+  if (std::abs(p.spacing - h_side) > kSameSpacing * h_side) q = apex(0.5 * (h_side + p.spacing));
   p.x = q.x();
   p.y = q.y();
   p.z = q.z();
@@ -339,49 +412,49 @@ void TileFront::insert(const Vertex& p) {
 
 void TileFront::classify_star(Index centre) {
   const Vertex p = mesh_.vertex(centre);
-  for (std::size_t first = 0; first < cavity_.size(); first += kLanes) classify_lanes(p, first);
-  if (mesh_.ball_surface == nullptr) return;
-  for (std::size_t i = 0; i < cavity_.size(); ++i) {
-    mesh_.cache_circle(mesh_.at(cavity_.triangles[i]));
+  StarLanes star;
+  CircleLanes circle;
+  for (std::size_t first = 0; first < cavity_.size(); first += kLanes) {
+    const std::size_t n = std::min(kLanes, cavity_.size() - first);
+    for (std::size_t i = 0; i <= kLanes; ++i) {
+      const Vertex& v = mesh_.vertex(cavity_.start[first + std::min(i, n)]);
+      star.x[i] = v.x - p.x;
+      star.y[i] = v.y - p.y;
+      star.z[i] = v.z - p.z;
+      star.spacing[i] = v.spacing;
+    }
+    flag_lanes(p, star, circle);
+    if (mesh_.ball_surface == nullptr) {
+      plane_lanes(p, star, circle);
+    } else {
+      ball_lanes(p, mesh_.ball_surface->inverse_square(), star, circle);
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      WorkTriangle& tri = mesh_.at(cavity_.triangles[first + i]);
+      tri.plane = {circle.x[i], circle.y[i], circle.z[i]};
+      tri.bound = circle.bound[i];
+      if (circle.size_excess[i] > 0.0) tri.stamp |= WorkTriangle::kOverSize;
+      if (circle.edge_excess[i] > 0.0) tri.stamp |= WorkTriangle::kOverRadiusEdge;
+    }
   }
 }
 
-// Caches the planes of up to eight star triangles and marks those over size; the same arithmetic
-// as cache_circle() and mark_bad(), side by side so that the compiler can use vector registers.
-void TileFront::classify_lanes(const Vertex& p, std::size_t first) {
-  alignas(64) double sx[kLanes + 1], sy[kLanes + 1], sz[kLanes + 1], sh[kLanes + 1];
-  alignas(64) double ux[kLanes], uy[kLanes], uz[kLanes], bound[kLanes], excess[kLanes];
-  const std::size_t n = std::min(kLanes, cavity_.size() - first);
-  for (std::size_t i = 0; i <= kLanes; ++i) {
-    const Vertex& v = mesh_.vertex(cavity_.start[first + std::min(i, n)]);
-    sx[i] = v.x - p.x;
-    sy[i] = v.y - p.y;
-    sz[i] = v.z - p.z;
-    sh[i] = v.spacing;
-  }
-  const double alpha = input_.options.size_ratio;
-  const double factor = alpha * alpha * (4.0 / 27.0);
+// The same arithmetic as flag(), side by side.
+void TileFront::flag_lanes(const Vertex& p, const StarLanes& s, CircleLanes& out) const {
+  const double size_factor = size_factor_, edge_factor = edge_factor_;
   for (std::size_t i = 0; i < kLanes; ++i) {
-    const double nx = sy[i] * sz[i + 1] - sz[i] * sy[i + 1];
-    const double ny = sz[i] * sx[i + 1] - sx[i] * sz[i + 1];
-    const double nz = sx[i] * sy[i + 1] - sy[i] * sx[i + 1];
-    const double aa = sx[i] * sx[i] + sy[i] * sy[i] + sz[i] * sz[i];
-    const double bb = sx[i + 1] * sx[i + 1] + sy[i + 1] * sy[i + 1] + sz[i + 1] * sz[i + 1];
-    const double dx = sx[i] - sx[i + 1], dy = sy[i] - sy[i + 1], dz = sz[i] - sz[i + 1];
+    const double nx = s.y[i] * s.z[i + 1] - s.z[i] * s.y[i + 1];
+    const double ny = s.z[i] * s.x[i + 1] - s.x[i] * s.z[i + 1];
+    const double nz = s.x[i] * s.y[i + 1] - s.y[i] * s.x[i + 1];
+    const double aa = s.x[i] * s.x[i] + s.y[i] * s.y[i] + s.z[i] * s.z[i];
+    const double bb = s.x[i + 1] * s.x[i + 1] + s.y[i + 1] * s.y[i + 1] + s.z[i + 1] * s.z[i + 1];
+    const double dx = s.x[i] - s.x[i + 1], dy = s.y[i] - s.y[i + 1], dz = s.z[i] - s.z[i + 1];
     const double cc = dx * dx + dy * dy + dz * dz;
-    const double h = sh[i] + sh[i + 1] + p.spacing;
-    excess[i] = aa * bb * cc - factor * h * h * (nx * nx + ny * ny + nz * nz);
-    const double inverse = 1.0 / (nx * p.x + ny * p.y + nz * p.z);
-    ux[i] = nx * inverse;
-    uy[i] = ny * inverse;
-    uz[i] = nz * inverse;
-    bound[i] = plane_bound(ux[i], uy[i], uz[i], (aa + bb) * inverse);
-  }
-  for (std::size_t i = 0; i < n; ++i) {
-    WorkTriangle& tri = mesh_.at(cavity_.triangles[first + i]);
-    tri.plane = {ux[i], uy[i], uz[i]};
-    tri.bound = bound[i];
-    if (excess[i] > 0.0) tri.stamp |= 1U;
+    const double h = s.spacing[i] + s.spacing[i + 1] + p.spacing;
+    const double product = aa * bb * cc, cross = nx * nx + ny * ny + nz * nz;
+    const double ab = aa < bb ? aa : bb;
+    out.size_excess[i] = product - size_factor * h * h * cross;
+    out.edge_excess[i] = product - edge_factor * (ab < cc ? ab : cc) * cross;
   }
 }
 
@@ -410,13 +483,18 @@ TileMesh TileFront::take() {
       mesh_.vertices.end());
   out.triangles.reserve(mesh_.triangles.size());
   for (const WorkTriangle& tri : mesh_.triangles) {
+    if ((tri.stamp & WorkTriangle::kOffBounds) != 0) {
+      out.off_bounds.push_back(static_cast<Index>(out.triangles.size()));
+    }
     Triangle t{tri.vertex, {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      t.neighbour[k] = tri.link[k] < 0 ? tri.link[k] : triangle_of(tri.link[k]);
+      t.neighbour[k] = tri.link[k] < 0 ? kNone : triangle_of(tri.link[k]);
     }
     out.triangles.push_back(t);
   }
-  for (const Index link : mesh_.border_links) out.border.push_back(triangle_of(link));
+  for (const Index link : mesh_.border_links) {
+    out.border.push_back({triangle_of(link), static_cast<int>(side_of(link))});
+  }
   return out;
 }
 

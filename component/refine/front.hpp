@@ -12,12 +12,18 @@
 
 namespace delos {
 
+struct TriangleSide {
+  Index triangle;
+  int side;
+};
+
 /// A refined tile. Local vertex ids: first the skeleton's, then the inserted ones.
 struct TileMesh {
   std::vector<Index> skeleton_vertices;  ///< ascending ids in the skeleton
-  std::vector<Vertex> inserted;
-  std::vector<Triangle> triangles;  ///< local ids; neighbour = ~slot of the tile's border at a side
-  std::vector<Index> border;        ///< local triangle at each slot of the tile's border
+  Array<Vertex> inserted;
+  Array<Triangle> triangles;         ///< local ids; neighbour < 0 at the tile's border
+  std::vector<TriangleSide> border;  ///< what touches each slot of the tile's border
+  std::vector<Index> off_bounds;     ///< triangles that break a bound of the options, ascending
 };
 
 /// Scratch memory that one thread reuses from tile to tile.
@@ -43,7 +49,7 @@ struct FrontInput {
 };
 
 /// Refines tile number `tile`; its triangles meet the size bound but for the few whose
-/// circumcentres lie beyond the tile's sides.
+/// circumcentres lie beyond the tile's sides. Those off a bound are listed.
 TileMesh refine_tile(const FrontInput& input, std::size_t tile, FrontWorkspace& workspace);
 
 }  // namespace delos

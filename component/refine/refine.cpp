@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "refine/refine.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "refine/assemble.hpp"
 #include "refine/bounds.hpp"
 #include "refine/front.hpp"
@@ -25,19 +28,37 @@ void check_options(const RefineOptions& options) {
               ": must be >= 500 (12000 is the default).");
 }
 
-std::vector<TileMesh> refine_tiles(Context& context, const FrontInput& input) {
+// Tiles of one batch: enough for every thread to have its share at any moment, few enough to be a
+// small part of the mesh. The result does not depend on it.
+std::size_t batch_tiles(const parallel::Executor& exec) {
+  constexpr std::size_t kTilesPerThread = 24;
+  return kTilesPerThread * static_cast<std::size_t>(exec.n_threads());
+}
+
+std::vector<TileMesh> refine_batch(Context& context, const FrontInput& input, std::size_t first,
+                                   std::vector<FrontWorkspace>& scratch) {
   const std::size_t n_tiles = input.skeleton.tile_triangles.size();
-  std::vector<TileMesh> tiles(n_tiles);
-  std::vector<FrontWorkspace> scratch(static_cast<std::size_t>(context.exec.n_threads()));
+  std::vector<TileMesh> tiles(std::min(batch_tiles(context.exec), n_tiles - first));
   parallel::for_index(
-      context.exec, static_cast<std::int64_t>(n_tiles), kTilesPerTask, [&](std::int64_t tile) {
+      context.exec, static_cast<std::int64_t>(tiles.size()), kTilesPerTask, [&](std::int64_t i) {
         context.monitor.check_cancelled();
-        const auto t = static_cast<std::size_t>(tile);
-        tiles[t] =
-            refine_tile(input, t, scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
-        context.monitor.advance(static_cast<std::int64_t>(tiles[t].inserted.size()));
+        TileMesh& tile = tiles[static_cast<std::size_t>(i)];
+        tile = refine_tile(input, first + static_cast<std::size_t>(i),
+                           scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
+        context.monitor.advance(static_cast<std::int64_t>(tile.inserted.size()));
       });
   return tiles;
+}
+
+Assembly refine_tiles(Context& context, const FrontInput& input, Assembler assembler) {
+  std::vector<FrontWorkspace> scratch(static_cast<std::size_t>(context.exec.n_threads()));
+  const std::size_t n_tiles = input.skeleton.tile_triangles.size();
+  for (std::size_t first = 0; first < n_tiles;) {
+    const std::vector<TileMesh> tiles = refine_batch(context, input, first, scratch);
+    assembler.append(tiles);
+    first += tiles.size();
+  }
+  return assembler.finish();
 }
 
 }  // namespace
@@ -54,19 +75,21 @@ Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spac
   context.monitor.advance(report.n_skeleton_vertices);
 
   const std::vector<Index> half_segment = half_segment_of_sides(skeleton);
-  std::vector<TileMesh> tiles =
-      refine_tiles(context, {surface, spacing, options, skeleton, half_segment});
-  std::vector<Index> side_triangles;
-  Mesh mesh = assemble(context.exec, skeleton, tiles, side_triangles);
+  Assembly assembly = refine_tiles(context, {surface, spacing, options, skeleton, half_segment},
+                                   Assembler(context.exec, skeleton, tiling.expected_vertices));
+  Mesh& mesh = assembly.mesh;
   // On the sphere only the tiles' sides may be non-Delaunay; on an ellipsoid the hull predicate
   // of the tile kernel differs a little from the surface Delaunay triangulation everywhere.
-  report.n_flips = surface.is_sphere() ? restore_delaunay(mesh, surface, side_triangles)
-                                       : restore_delaunay_everywhere(context.exec, mesh, surface);
-  const BoundsReport bounds = enforce_bounds(context, surface, spacing, options, mesh);
+  std::vector<Index>& suspects = assembly.off_bounds;
+  report.n_flips = surface.is_sphere()
+                       ? restore_delaunay(mesh, surface, assembly.side_triangles, &suspects)
+                       : restore_delaunay_everywhere(context.exec, mesh, surface, &suspects);
+  const BoundsReport bounds =
+      enforce_bounds(context, {surface, spacing, options}, std::move(suspects), mesh);
   report.n_inserted = mesh.n_vertices() - report.n_skeleton_vertices;
   report.n_over_size = bounds.n_over_size;
   report.n_over_radius_edge = bounds.n_over_radius_edge;
-  return mesh;
+  return std::move(assembly.mesh);
 }
 
 }  // namespace delos

@@ -25,7 +25,7 @@ struct Builder {
   const Ellipsoid& surface;
   const SpacingField& spacing;
   const Tiling& tiling;
-  std::vector<Vertex> vertices;
+  Array<Vertex> vertices;
   std::vector<Side> sides;
   std::unordered_map<std::uint64_t, std::size_t> side_of_key;
 
@@ -113,7 +113,7 @@ Index find_side(const Mesh& mesh, const std::vector<Index>& at_vertex, Index a, 
   return kNone;
 }
 
-Mesh mesh_of(Context& context, const Ellipsoid& surface, const std::vector<Vertex>& vertices) {
+Mesh mesh_of(Context& context, const Ellipsoid& surface, const Array<Vertex>& vertices) {
   std::vector<Vec3> points(vertices.size());
   for (std::size_t i = 0; i < points.size(); ++i) points[i] = vertices[i].position();
   Mesh mesh = delaunay(context.exec, points);

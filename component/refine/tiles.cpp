@@ -9,12 +9,11 @@ namespace delos {
 namespace {
 
 // Every face is measured at this level of the tree (20 * 4^4 triangles of about 440 km on the
-// Earth, 64 samples in each), so that a small fine patch inside a large face is not overlooked.
+// Earth, 9 samples in each), so that a small fine patch inside a large face is not overlooked.
 constexpr int kMeasuredLevel = 4;
-constexpr int kMeasuredPerFace = 256;  // 4^kMeasuredLevel
-constexpr std::size_t kSamplesPerSide =
-    8;                         // sub-triangles along a side when a triangle is measured
-constexpr int kMaxLevel = 24;  // the icosahedron's side over 2^24 is below one metre
+constexpr int kMeasuredPerFace = 256;       // 4^kMeasuredLevel
+constexpr std::size_t kSamplesPerSide = 3;  // sub-triangles along a side of a measured triangle
+constexpr int kMaxLevel = 24;               // the icosahedron's side over 2^24 is below one metre
 constexpr std::int64_t kMeasureGrain = 16;  // triangles a task: about 20 microseconds
 
 constexpr std::array<std::array<Index, 3>, 20> kFaces = {

@@ -84,7 +84,7 @@ void WorkMesh::fill_cavity(Cavity& cavity, Index new_vertex) {
     WorkTriangle& tri = at(id);
     tri.vertex = {new_vertex, cavity.start[i], cavity.start[i + 1]};
     tri.link = {cavity.link[i], 4 * next + 2, 4 * previous + 1};
-    tri.stamp = (tri.stamp | 1U) + 1U;
+    tri.stamp = (tri.stamp | WorkTriangle::kOffBounds) + 1U;
     if (cavity.link[i] >= 0) {
       at(triangle_of(cavity.link[i])).link[side_of(cavity.link[i])] = 4 * id;
     } else {

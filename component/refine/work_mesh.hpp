@@ -23,7 +23,11 @@ struct alignas(64) WorkTriangle {
   double bound;                 ///< of the rounding error of u.p - 1
   std::array<Index, 3> vertex;  ///< local ids, counter-clockwise
   std::array<Index, 3> link;    ///< across side k: 4 * triangle + its side, or ~half_segment
-  std::uint32_t stamp;          ///< bit 0: breaks a bound; the rest grows when the slot is reused
+  std::uint32_t stamp;          ///< the bits below; the rest grows when the slot is reused
+
+  static constexpr std::uint32_t kOverSize = 1;        ///< sqrt(3) R > alpha * mean spacing
+  static constexpr std::uint32_t kOverRadiusEdge = 2;  ///< R > rho * shortest side
+  static constexpr std::uint32_t kOffBounds = kOverSize | kOverRadiusEdge;
 };
 
 /// Rounding bound of u.p - 1 for |p| <= 1. With e = 2^-53, a relative error of a few e in each
@@ -55,7 +59,7 @@ struct Cavity {
 
 class WorkMesh {
  public:
-  std::vector<Vertex> vertices;
+  Array<Vertex> vertices;
   std::vector<WorkTriangle> triangles;
   /// Set: circumcircles are judged by surface Delaunay balls on this surface, else by planes.
   const Ellipsoid* ball_surface = nullptr;

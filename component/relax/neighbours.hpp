@@ -4,6 +4,7 @@
 // from one half cache line.
 #include <vector>
 
+#include "core/array.hpp"
 #include "core/parallel.hpp"
 #include "triangulation/mesh.hpp"
 
@@ -33,7 +34,7 @@ class NeighbourRows {
   const Overflow* overflow_of(Index vertex) const;
 
  private:
-  std::vector<std::array<Index, kWidth>> rows_;
+  Array<std::array<Index, kWidth>> rows_;
   std::vector<Overflow> overflow_;
 };
 

@@ -29,7 +29,7 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
                    RelaxReport& report) {
   const Phase phase(context.monitor, "relax",
                     static_cast<std::int64_t>(options.spring_rounds) * mesh.n_vertices());
-  std::vector<Vertex> moved(mesh.vertices.size());
+  Array<Vertex> moved(mesh.vertices.size());
   NeighbourRows rows(context.exec, mesh);
   for (int round = 0; round < options.spring_rounds; ++round) {
     context.monitor.check_cancelled();

@@ -21,7 +21,7 @@ constexpr std::int64_t kTurnGrain = 16384;  // triangles a task: about 0.2 ms
 constexpr std::size_t kWidth = NeighbourRows::kWidth;
 
 // Sum over a row of (1 - h_ij / l_ij) (x_j - x_i); places that hold the vertex itself add 0.
-Vec3 row_force(const std::vector<Vertex>& vertices, const Vertex& p,
+Vec3 row_force(const Array<Vertex>& vertices, const Vertex& p,
                const std::array<Index, kWidth>& row) {
   alignas(64) double dx[kWidth], dy[kWidth], dz[kWidth], h[kWidth];
   for (std::size_t j = 0; j < kWidth; ++j) {
@@ -44,8 +44,7 @@ Vec3 row_force(const std::vector<Vertex>& vertices, const Vertex& p,
   return {total(dx), total(dy), total(dz)};
 }
 
-Vec3 overflow_force(const std::vector<Vertex>& vertices, Index vertex,
-                    const NeighbourRows& neighbours) {
+Vec3 overflow_force(const Array<Vertex>& vertices, Index vertex, const NeighbourRows& neighbours) {
   Vec3 force(0, 0, 0);
   const NeighbourRows::Overflow* more = neighbours.overflow_of(vertex);
   if (more == nullptr) return force;
@@ -60,7 +59,7 @@ Vec3 overflow_force(const std::vector<Vertex>& vertices, Index vertex,
 }
 
 void move_all(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
-              const std::vector<Vertex>& vertices, std::vector<Vertex>& moved) {
+              const Array<Vertex>& vertices, Array<Vertex>& moved) {
   const bool has_overflow = !rows.overflow().empty();
   const auto n = static_cast<std::int64_t>(vertices.size());
   parallel::for_range(exec, n, kSpringGrain, [&](std::int64_t begin, std::int64_t end) {
@@ -87,7 +86,7 @@ bool is_same_place(const Vertex& a, const Vertex& b) {
   return a.x == b.x && a.y == b.y && a.z == b.z;
 }
 
-bool is_flat_or_turned(const Triangle& t, const std::vector<Vertex>& vertices) {
+bool is_flat_or_turned(const Triangle& t, const Array<Vertex>& vertices) {
   const Vec3 a = vertices[static_cast<std::size_t>(t.vertex[0])].position();
   const Vec3 ab = vertices[static_cast<std::size_t>(t.vertex[1])].position() - a;
   const Vec3 ac = vertices[static_cast<std::size_t>(t.vertex[2])].position() - a;
@@ -98,7 +97,7 @@ bool is_flat_or_turned(const Triangle& t, const std::vector<Vertex>& vertices) {
 
 // Triangles that a move has spoilt, ascending.
 std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
-                               const std::vector<Vertex>& moved) {
+                               const Array<Vertex>& moved) {
   return parallel::collect<Index>(
       exec, mesh.n_triangles(), kTurnGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
@@ -117,7 +116,7 @@ std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
 }  // namespace
 
 void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
-                  const Mesh& mesh, std::vector<Vertex>& moved) {
+                  const Mesh& mesh, Array<Vertex>& moved) {
   move_all(exec, target, rows, mesh.vertices, moved);
   // Each pass puts at least one more vertex back, so this ends; one pass is the rule.
   for (std::vector<Index> spoilt = find_spoilt(exec, mesh, moved); !spoilt.empty();

@@ -14,6 +14,6 @@ namespace delos {
 /// over is taken back, so every triangle stays counter-clockwise. Reads mesh.vertices, writes
 /// `moved` (same length).
 void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
-                  const Mesh& mesh, std::vector<Vertex>& moved);
+                  const Mesh& mesh, Array<Vertex>& moved);
 
 }  // namespace delos

@@ -31,10 +31,11 @@ inline double first_octant(double small, double large) {
   const double below = large + kTanPi8 * small;
   // At the poles both are 0: any longitude will do, a NaN will not.
   const double u = (small - kTanPi8 * large) / (below > 0.0 ? below : 1.0);
-  const double v = u * u;
-  double p = kAtan[7];
-  for (int k = 6; k >= 0; --k) p = p * v + kAtan[k];
-  return kPi / 8.0 + u * p;
+  // Estrin's order: a third of the latency of Horner's, which a single lookup waits for.
+  const double v = u * u, v2 = v * v;
+  const double low = (kAtan[0] + kAtan[1] * v) + (kAtan[2] + kAtan[3] * v) * v2;
+  const double high = (kAtan[4] + kAtan[5] * v) + (kAtan[6] + kAtan[7] * v) * v2;
+  return kPi / 8.0 + u * (low + high * (v2 * v2));
 }
 
 inline double quick_atan2(double y, double x) {

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/array.hpp"
 #include "core/types.hpp"
 
 namespace delos {
@@ -26,8 +27,8 @@ struct Triangle {
 };
 
 struct Mesh {
-  std::vector<Vertex> vertices;
-  std::vector<Triangle> triangles;  ///< 2 n_vertices - 4 of them when closed
+  Array<Vertex> vertices;
+  Array<Triangle> triangles;  ///< 2 n_vertices - 4 of them when closed
 
   Index n_vertices() const { return static_cast<Index>(vertices.size()); }
   Index n_triangles() const { return static_cast<Index>(triangles.size()); }
