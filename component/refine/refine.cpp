@@ -2,6 +2,7 @@
 #include "refine/refine.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <utility>
 
 #include "refine/assemble.hpp"
@@ -25,7 +26,7 @@ void check_options(const RefineOptions& options) {
               "refine.size_ratio = ", options.size_ratio, ": must be > 1 (4/3 is the default).");
   DELOS_CHECK(options.tile_vertices >= 500.0, ErrorKind::config,
               "refine.tile_vertices = ", options.tile_vertices,
-              ": must be >= 500 (12000 is the default).");
+              ": must be >= 500 (36000 is the default).");
 }
 
 // Tiles of one batch: enough for every thread to have its share at any moment, few enough to be a
@@ -39,13 +40,20 @@ std::vector<TileMesh> refine_batch(Context& context, const FrontInput& input, st
                                    std::vector<FrontWorkspace>& scratch) {
   const std::size_t n_tiles = input.skeleton.tile_triangles.size();
   std::vector<TileMesh> tiles(std::min(batch_tiles(context.exec), n_tiles - first));
+  // The largest first, so that no thread is left alone with one at the end.
+  std::vector<std::size_t> order(tiles.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return input.skeleton.tile_half_segments[first + a].size() >
+           input.skeleton.tile_half_segments[first + b].size();
+  });
   parallel::for_index(
       context.exec, static_cast<std::int64_t>(tiles.size()), kTilesPerTask, [&](std::int64_t i) {
         context.monitor.check_cancelled();
-        TileMesh& tile = tiles[static_cast<std::size_t>(i)];
-        tile = refine_tile(input, first + static_cast<std::size_t>(i),
-                           scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
-        context.monitor.advance(static_cast<std::int64_t>(tile.inserted.size()));
+        const std::size_t tile = order[static_cast<std::size_t>(i)];
+        tiles[tile] = refine_tile(input, first + tile,
+                                  scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
+        context.monitor.advance(static_cast<std::int64_t>(tiles[tile].inserted.size()));
       });
   return tiles;
 }

@@ -17,7 +17,7 @@ struct RefineOptions {
   /// alpha: bound on sqrt(3) * circumradius / spacing.
   double size_ratio = 4.0 / 3.0;
   /// Expected vertices of a tile; part of the answer, not of the thread count.
-  double tile_vertices = 12000.0;
+  double tile_vertices = 36000.0;
 };
 
 struct RefineReport {

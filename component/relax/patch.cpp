@@ -10,10 +10,6 @@
 namespace delos {
 namespace {
 
-const double kAreaLength = 4.0 / std::sqrt(3.0);  // 4 sqrt(3) / 3, with the mean of the squares
-constexpr double kShortSide = 1.18;               // 0.78 h scores 0.92
-constexpr double kLongSide = 1.18;                // 1.28 h scores 0.92
-
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 // The triangles around the free vertices, each once, in the order of first sight.
@@ -41,24 +37,26 @@ Index local_id(const std::vector<Index>& sorted, Index global) {
 
 }  // namespace
 
-double area_length(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const Vec3 ab = b - a, ac = c - a;
-  const Vec3 normal = ab.cross(ac);
-  const double area = 0.5 * std::sqrt(normal.squaredNorm());
-  const double mean_square = (ab.squaredNorm() + ac.squaredNorm() + (c - b).squaredNorm()) / 3.0;
-  return (normal.dot(a) > 0.0 ? kAreaLength : -kAreaLength) * area / mean_square;
+const Vertex& Patch::across(Index t, int k) const {
+  const Index other = triangle(t).neighbour[at(k)];
+  if (other < 0) return beyond[at(~other)];
+  return vertex(triangle(other).vertex[at(side_towards(triangle(other), t))]);
 }
 
-double triangle_score(const Vertex& a, const Vertex& b, const Vertex& c) {
-  const Vec3 pa = a.position(), pb = b.position(), pc = c.position();
-  const auto relative_square = [](const Vec3& edge, double h) {
-    return edge.squaredNorm() / (0.25 * h * h);
+double Patch::score(Index t) const {
+  const Triangle& tri = triangle(t);
+  const std::array<const Vertex*, 3> v = {&vertex(tri.vertex[0]), &vertex(tri.vertex[1]),
+                                          &vertex(tri.vertex[2])};
+  const Cotangents cot = cotangents(v[0]->position(), v[1]->position(), v[2]->position());
+  const auto across_cot = [&](std::size_t k) {
+    const int side = static_cast<int>(k);
+    return cotangent(across(t, side), *v[at(previous_corner(side))], *v[at(next_corner(side))]);
   };
-  const double ab = relative_square(pb - pa, a.spacing + b.spacing);
-  const double bc = relative_square(pc - pb, b.spacing + c.spacing);
-  const double ca = relative_square(pa - pc, c.spacing + a.spacing);
-  return std::min({area_length(pa, pb, pc), kShortSide * std::sqrt(std::min({ab, bc, ca})),
-                   kLongSide / std::sqrt(std::max({ab, bc, ca}))});
+  double least = with_own_sides(triangle_score(*v[0], *v[1], *v[2]), cot, across_cot);
+  for (std::size_t k = 0; k < 3; ++k) {
+    if (tri.neighbour[k] < 0) least = std::min(least, side_score(cot[k], across_cot(k)));
+  }
+  return least;
 }
 
 std::pair<double, Index> Patch::worst() const {
@@ -96,8 +94,10 @@ ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex
       t.neighbour[k] = local_id(out.origin.triangles, source.neighbour[k]);
       if (t.neighbour[k] == kNone) {
         t.neighbour[k] = ~static_cast<Index>(out.origin.border.size());
-        out.origin.border.push_back(
-            {source.neighbour[k], side_towards(mesh.triangle(source.neighbour[k]), tri)});
+        const Triangle& outside = mesh.triangle(source.neighbour[k]);
+        const int side = side_towards(outside, tri);
+        out.origin.border.push_back({source.neighbour[k], side});
+        out.patch.beyond.push_back(mesh.vertices[at(outside.vertex[at(side)])]);
       }
     }
     out.patch.triangles.push_back(t);
@@ -291,21 +291,23 @@ void insert_vertex(Patch& patch, Index tri, const Vertex& vertex) {
 }
 
 Stars stars(const Patch& patch) {
-  Stars out;
-  out.offsets.assign(at(patch.n_free) + 1, 0);
-  for (const Triangle& t : patch.triangles) {
-    for (const Index v : t.vertex) {
-      if (v < patch.n_free) ++out.offsets[at(v) + 1];
+  std::vector<Index> first(at(patch.n_free), kNone);
+  for (Index t = patch.n_triangles() - 1; t >= 0; --t) {
+    for (const Index v : patch.triangle(t).vertex) {
+      if (v < patch.n_free) first[at(v)] = t;
     }
   }
-  for (std::size_t v = 1; v < out.offsets.size(); ++v) out.offsets[v] += out.offsets[v - 1];
-  out.corners.resize(at(out.offsets.back()));
-  std::vector<Index> next(out.offsets.begin(), out.offsets.end() - 1);
-  for (Index t = 0; t < patch.n_triangles(); ++t) {
-    for (int k = 0; k < 3; ++k) {
-      const Index v = patch.triangle(t).vertex[at(k)];
-      if (v < patch.n_free) out.corners[at(next[at(v)]++)] = 3 * t + k;
-    }
+  Stars out;
+  out.offsets.push_back(0);
+  for (Index v = 0; v < patch.n_free; ++v) {
+    Index tri = first[at(v)];
+    do {
+      const Triangle& t = patch.triangle(tri);
+      const int k = corner_at(t, v);
+      out.corners.push_back(3 * tri + static_cast<Index>(k));
+      tri = t.neighbour[at(next_corner(k))];
+    } while (tri != first[at(v)]);
+    out.offsets.push_back(static_cast<Index>(out.corners.size()));
   }
   return out;
 }

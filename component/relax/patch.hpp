@@ -7,23 +7,17 @@
 #include <vector>
 
 #include "geometry/ellipsoid.hpp"
+#include "relax/score.hpp"
 #include "sizing/spacing.hpp"
 #include "triangulation/mesh.hpp"
 
 namespace delos {
 
-/// Area-length quality a_f of a triangle (DESIGN section 6): 1 = equilateral, negative when
-/// clockwise seen from outside. Above sqrt(3)/2 = 0.866 a triangle has no angle of 90 degrees.
-double area_length(const Vec3& a, const Vec3& b, const Vec3& c);
-
-/// What repair and polish raise: the least of area_length, and of the shortest and the longest side
-/// over the spacing, scaled so that 0.92 stands for sides of 0.78 h and 1.28 h.
-double triangle_score(const Vertex& a, const Vertex& b, const Vertex& c);
-
 /// Ids are local: free vertices first, [0, n_free); the others lie on the border and stay.
 /// A side on the border has neighbour ~b, b its number in the order of extraction.
 struct Patch {
   std::vector<Vertex> vertices;
+  std::vector<Vertex> beyond;  ///< opposite to each side of the border, in the triangle outside
   std::vector<Triangle> triangles;
   Index n_free = 0;
 
@@ -31,11 +25,10 @@ struct Patch {
   Triangle& triangle(Index t) { return triangles[static_cast<std::size_t>(t)]; }
   const Triangle& triangle(Index t) const { return triangles[static_cast<std::size_t>(t)]; }
   Index n_triangles() const { return static_cast<Index>(triangles.size()); }
-  /// See triangle_score().
-  double score(Index t) const {
-    const auto& v = triangle(t).vertex;
-    return triangle_score(vertex(v[0]), vertex(v[1]), vertex(v[2]));
-  }
+  /// The vertex opposite to side k of t in the triangle across.
+  const Vertex& across(Index t, int k) const;
+  /// triangle_score() and that of its own sides; sides on the border are always its own.
+  double score(Index t) const;
   /// Least score of its triangles, and the triangle (the first if there are several).
   std::pair<double, Index> worst() const;
 };
@@ -75,8 +68,8 @@ int restore_delaunay(Patch& patch);
 bool remove_vertex(Patch& patch, Index vertex);
 /// Puts a free vertex into a triangle (split in three).
 void insert_vertex(Patch& patch, Index tri, const Vertex& vertex);
-/// Corners at each free vertex, as 3 * triangle + corner: row v is
-/// corners[offsets[v]] .. corners[offsets[v + 1] - 1], in order of triangle.
+/// The star of each free vertex v, counter-clockwise from its lowest triangle: corners as
+/// 3 * triangle + corner, corners[offsets[v]] .. corners[offsets[v + 1] - 1].
 struct Stars {
   std::vector<Index> offsets;
   std::vector<Index> corners;

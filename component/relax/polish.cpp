@@ -27,8 +27,17 @@ constexpr std::size_t kHostileShare = 50;
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 double score(const Mesh& mesh, Index tri) {
-  const auto& v = mesh.triangle(tri).vertex;
-  return triangle_score(mesh.vertices[at(v[0])], mesh.vertices[at(v[1])], mesh.vertices[at(v[2])]);
+  const Triangle& t = mesh.triangle(tri);
+  const std::array<const Vertex*, 3> v = {&mesh.vertices[at(t.vertex[0])],
+                                          &mesh.vertices[at(t.vertex[1])],
+                                          &mesh.vertices[at(t.vertex[2])]};
+  const Cotangents cot = cotangents(v[0]->position(), v[1]->position(), v[2]->position());
+  return with_own_sides(triangle_score(*v[0], *v[1], *v[2]), cot, [&](std::size_t k) {
+    const Triangle& other = mesh.triangle(t.neighbour[k]);
+    const Vertex& apex = mesh.vertices[at(other.vertex[at(side_towards(other, tri))])];
+    const int side = static_cast<int>(k);
+    return cotangent(apex, *v[at(previous_corner(side))], *v[at(next_corner(side))]);
+  });
 }
 
 // Ids of the triangles below the target, ascending.
@@ -170,10 +179,14 @@ void compact_all(Mesh& mesh, MeshEdits& edits, TriedMeans& tried, std::vector<In
   renumber(new_id.triangles, bad);
 }
 
-// Only triangles that were bad or have been written can be bad now.
+// Only triangles that were bad, have been written or lie next to those can be bad now.
 std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index> bad,
                              const std::vector<Index>& written) {
-  bad.insert(bad.end(), written.begin(), written.end());
+  for (const Index tri : written) {
+    const auto& around = mesh.triangle(tri).neighbour;
+    bad.insert(bad.end(), around.begin(), around.end());
+    bad.push_back(tri);
+  }
   std::sort(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
   std::erase_if(bad, [&](Index tri) { return score(mesh, tri) >= target; });

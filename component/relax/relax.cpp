@@ -29,12 +29,12 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
                    RelaxReport& report) {
   const Phase phase(context.monitor, "relax",
                     static_cast<std::int64_t>(options.spring_rounds) * mesh.n_vertices());
-  Array<Vertex> moved(mesh.vertices.size());
+  Array<Vertex> other;
   NeighbourRows rows(context.exec, mesh);
   for (int round = 0; round < options.spring_rounds; ++round) {
     context.monitor.check_cancelled();
-    spring_round(context.exec, target, rows, mesh, moved);
-    std::swap(mesh.vertices, moved);
+    spring_round(context.exec, target, rows, mesh, other);
+    std::swap(mesh.vertices, other);
     ++report.spring_rounds;
     if (is_flip_round(round, options.spring_rounds - 1)) {
       std::vector<Index> flipped;

@@ -16,8 +16,8 @@ struct RelaxOptions {
   /// Rounds of polish at most; they stop when every triangle meets the target or all means have
   /// failed.
   int polish_rounds = 100;
-  /// Score that polish brings every triangle to where it can: area-length quality, and sides
-  /// between 0.78 h and 1.28 h at 0.92 (see triangle_score() in relax/patch.hpp).
+  /// Score that polish brings every triangle to where it can: area-length quality, sides between
+  /// 0.79 h and 1.27 h and stagger below 0.1 at 0.93 (see relax/score.hpp).
   double target_quality = 0.93;
   /// Whether polish may remove and insert vertices.
   bool repair = true;

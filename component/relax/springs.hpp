@@ -8,12 +8,14 @@
 
 namespace delos {
 
-/// One round: x <- project(x + dt * sum_j (l_ij - h_ij) e_ij) for every vertex at once (Jacobi, so
-/// the order of evaluation can't matter), h_ij the mean of the two ends' spacings, the step limited
-/// to a fraction of h. Spacings are looked up anew. A move that flattens a triangle or turns it
-/// over is taken back, so every triangle stays counter-clockwise. Reads mesh.vertices, writes
-/// `moved` (same length).
+/// One round: x <- project(x + dt * sum_j (l_ij - h_ij) e_ij + mu * (x - x')) for every vertex at
+/// once (Jacobi, so the order of evaluation can't matter), h_ij the mean of the two ends' spacings,
+/// x' where the vertex was a round ago (heavy-ball momentum: Polyak 1964,
+/// doi:10.1016/0041-5553(64)90137-5), the step limited to a fraction of h. Spacings are looked up
+/// anew. A move that flattens a triangle or turns it over is taken back, so every triangle stays
+/// counter-clockwise. `other` holds the vertices of a round ago, or nothing (no momentum then), and
+/// receives the moved ones; the caller swaps it with mesh.vertices.
 void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
-                  const Mesh& mesh, Array<Vertex>& moved);
+                  const Mesh& mesh, Array<Vertex>& other);
 
 }  // namespace delos

@@ -78,7 +78,7 @@ TEST_CASE("an icosahedron with the right rest length stays where it is") {
   const Ellipsoid sphere;
   const double edge = 4.0 / std::sqrt(10.0 + 2.0 * std::sqrt(5.0));
   const Mesh mesh = mesh_of(exec, points, edge);
-  Array<Vertex> moved(mesh.vertices.size());
+  Array<Vertex> moved;
   const SpacingField spacing = SpacingField::constant(sphere, edge);
   spring_round(exec, {sphere, spacing}, NeighbourRows(exec, mesh), mesh, moved);
   for (std::size_t v = 0; v < moved.size(); ++v) {
@@ -109,7 +109,7 @@ TEST_CASE("springs pull the lengths of a disturbed grid together") {
     return squares - sum * sum / static_cast<double>(mesh.triangles.size());
   };
   const double before = energy();
-  Array<Vertex> moved(mesh.vertices.size());
+  Array<Vertex> moved;
   for (int round = 0; round < 20; ++round) {
     spring_round(exec, {sphere, spacing}, rows, mesh, moved);
     std::swap(mesh.vertices, moved);

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "relax/score.hpp"
+
+#include <Eigen/Geometry>
+
+namespace delos {
+namespace {
+
+const double kAreaLength = 4.0 / std::sqrt(3.0);  // 4 sqrt(3) / 3, with the mean of the squares
+constexpr double kShortSide = 1.18;               // 0.79 h scores 0.93
+constexpr double kLongSide = 1.18;                // 1.27 h scores 0.93
+
+}  // namespace
+
+double area_length(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a;
+  const Vec3 normal = ab.cross(ac);
+  const double area = 0.5 * std::sqrt(normal.squaredNorm());
+  const double mean_square = (ab.squaredNorm() + ac.squaredNorm() + (c - b).squaredNorm()) / 3.0;
+  return (normal.dot(a) > 0.0 ? kAreaLength : -kAreaLength) * area / mean_square;
+}
+
+double triangle_score(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const Vec3 pa = a.position(), pb = b.position(), pc = c.position();
+  const auto relative_square = [](const Vec3& edge, double h) {
+    return edge.squaredNorm() / (0.25 * h * h);
+  };
+  const double ab = relative_square(pb - pa, a.spacing + b.spacing);
+  const double bc = relative_square(pc - pb, b.spacing + c.spacing);
+  const double ca = relative_square(pa - pc, c.spacing + a.spacing);
+  return std::min({area_length(pa, pb, pc), kShortSide * std::sqrt(std::min({ab, bc, ca})),
+                   kLongSide / std::sqrt(std::max({ab, bc, ca}))});
+}
+
+Cotangents cotangents(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, bc = c - b;
+  const double twice_area = std::sqrt(ab.cross(ac).squaredNorm());
+  return {ab.dot(ac) / twice_area, -ab.dot(bc) / twice_area, ac.dot(bc) / twice_area};
+}
+
+double cotangent(const Vertex& a, const Vertex& b, const Vertex& c) {
+  const Vec3 ab = b.position() - a.position(), ac = c.position() - a.position();
+  return ab.dot(ac) / std::sqrt(ab.cross(ac).squaredNorm());
+}
+
+}  // namespace delos
