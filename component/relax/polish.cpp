@@ -170,13 +170,16 @@ MeshEdits commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_
   return edits;
 }
 
-void compact_all(Mesh& mesh, MeshEdits& edits, TriedMeans& tried, std::vector<Index>& bad) {
+// Takes out what died, and finds a triangle at each vertex anew.
+void compact_all(Mesh& mesh, MeshEdits& edits, TriangleAtVertex& at_vertex, TriedMeans& tried,
+                 std::vector<Index>& bad) {
   const NewIds new_id = compact(mesh, edits);
   for (std::size_t v = 0; v < new_id.vertices.size(); ++v) {
     if (new_id.vertices[v] != kNone) tried[at(new_id.vertices[v])] = tried[v];
   }
   tried.resize(mesh.vertices.size());
   renumber(new_id.triangles, bad);
+  at_vertex = triangle_at_vertex(mesh);
 }
 
 // Only triangles that were bad, have been written or lie next to those can be bad now.
@@ -201,9 +204,9 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
   std::vector<Index> bad = find_bad(context.exec, mesh, options.target_quality);
   const Phase phase(context.monitor, "polish", static_cast<std::int64_t>(bad.size()));
   TriedMeans tried(mesh.vertices.size(), 0);
+  TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
   for (int round = 0; round < options.polish_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
-    TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
     const bool is_hostile = bad.size() * kHostileShare > mesh.triangles.size();
     std::vector<Job> jobs =
         pick_jobs(mesh, at_vertex, tried, is_hostile ? kMovesOnly : kMeans.size(), bad);
@@ -214,9 +217,12 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
     report.n_inserted += static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
     report.n_removed += static_cast<std::int64_t>(edits.dead_vertices.size());
     const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    if (!edits.dead_vertices.empty()) compact_all(mesh, edits, tried, bad);
+    if (!edits.dead_vertices.empty()) compact_all(mesh, edits, at_vertex, tried, bad);
     std::vector<Index> written = edits.touched_triangles;
     report.n_flips += restore_delaunay(mesh, target.surface, edits.touched_triangles, &written);
+    for (const Index tri : written) {
+      for (const Index v : mesh.triangle(tri).vertex) at_vertex[at(v)] = tri;
+    }
     bad = still_bad(mesh, options.target_quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.rounds;
