@@ -1,16 +1,28 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "core/progress.hpp"
 
+#include <ctime>
+
 namespace delos {
 namespace {
+
 constexpr std::int64_t kReportIntervalNs = 100'000'000;  // ten reports a second
+
+/// Processor seconds of the process so far.
+double processor_s() {
+  timespec now{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
+
+}  // namespace
 
 void Monitor::begin(const std::string& phase, std::int64_t total) {
   phase_ = phase;
   total_ = total;
   done_ = 0;
   start_ = Clock::now();
+  start_cpu_s_ = processor_s();
   next_report_ns_ = 0;
   report();
 }
@@ -29,8 +41,9 @@ void Monitor::advance(std::int64_t n) {
 
 void Monitor::end() {
   const double wall_s = std::chrono::duration<double>(Clock::now() - start_).count();
+  const double cpu_s = processor_s() - start_cpu_s_;
   report();
-  phases_.push_back({phase_, wall_s, done_.load()});
+  phases_.push_back({phase_, wall_s, cpu_s, done_.load()});
 }
 
 void Monitor::check_cancelled() const {

@@ -26,10 +26,11 @@ using ProgressCallback = std::function<void(const Progress&)>;
 enum class LogLevel { debug, info, warning, error };
 using LogCallback = std::function<void(LogLevel, const std::string&)>;
 
-/// Wall time of one finished phase.
+/// Times of one finished phase.
 struct PhaseTime {
   std::string phase;
   double wall_s = 0.0;
+  double cpu_s = 0.0;  ///< processor time of the whole process, all its threads together
   std::int64_t items = 0;
 };
 
@@ -61,6 +62,7 @@ class Monitor {
   std::int64_t total_ = 0;
   std::atomic<std::int64_t> done_{0};
   Clock::time_point start_{};
+  double start_cpu_s_ = 0.0;
   std::atomic<std::int64_t> next_report_ns_{0};
   std::mutex reporting_;
   std::vector<PhaseTime> phases_;

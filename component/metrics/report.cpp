@@ -132,7 +132,10 @@ Json section_json(const ReportSection& section) {
 Json phases_json(const std::vector<PhaseTime>& phases) {
   Json out = Json::array();
   for (const PhaseTime& phase : phases) {
-    out.push_back({{"phase", phase.phase}, {"wall_s", phase.wall_s}, {"items", phase.items}});
+    out.push_back({{"phase", phase.phase},
+                   {"wall_s", phase.wall_s},
+                   {"cpu_s", phase.cpu_s},
+                   {"items", phase.items}});
   }
   return out;
 }

@@ -1,140 +1,199 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Fixed cases, one JSON line each on standard output: wall time of every phase, vertices a second,
-// peak memory, quality columns, and the yardstick on the same points.
-//   delos_benchmark [--threads N] [CASE...]     default: all cases, one thread
-#include <sys/resource.h>
-
+// Fixed cases, one JSON line for each and each number of threads on standard output, after a line
+// on the machine. README.md says what the keys mean.
 #include <algorithm>
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
-#include <filesystem>
+#include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
-#include "benchmark/yardstick.hpp"
-#include "lifecycle/generate.hpp"
-#include "lifecycle/outputs.hpp"
-#include "lifecycle/settings_tree.hpp"
-#include "triangulation/delaunay.hpp"
+#include "benchmark/cases.hpp"
+#include "benchmark/child.hpp"
+#include "benchmark/measure.hpp"
+#include "io/data_files.hpp"
+#include "support/temporary_folder.hpp"
 
 namespace delos::benchmark {
 namespace {
 
-struct Case {
-  const char* name;
-  const char* yaml;
+constexpr char kUsage[] =
+    "usage: delos_benchmark [OPTION...] [CASE...]\n"
+    "  CASE             all but the large ones when none is named\n"
+    "  --threads N,...  numbers of threads, each a line (default: 1 and all cores)\n"
+    "  --repeat N       runs of each; the least of each time is told (default 1)\n"
+    "  --large          the large cases too\n"
+    "  --label TEXT     stands in the line on the machine, e.g. the commit\n"
+    "  --list           names of the cases, nothing is run\n";
+
+struct Arguments {
+  std::vector<std::string> names;
+  std::vector<int> threads;
+  int repeats = 1;
+  bool with_large = false;
+  bool only_lists = false;
+  std::string label;
 };
 
-// The names are those under which other generators' figures are known: uniform spacing in km, V1
-// the 150-to-15 km patch, E an ellipsoid of the Earth, T a triaxial body.
-constexpr Case kCases[] = {
-    {"U120", "sizing: {sources: [{type: constant, spacing: 120 km}]}"},
-    {"U60", "sizing: {sources: [{type: constant, spacing: 60 km}]}"},
-    {"U30", "sizing: {sources: [{type: constant, spacing: 30 km}]}"},
-    {"E60", "surface: {shape: wgs84}\nsizing: {sources: [{type: constant, spacing: 60 km}]}"},
-    {"T60",
-     "surface: {shape: ellipsoid, radii: [7645.464 km, 6371.22 km, 5096.976 km]}\n"
-     "sizing: {sources: [{type: constant, spacing: 60 km}]}"},
-    {"V1",
-     "sizing:\n  resolution: 0.25 deg\n  sources:\n"
-     "    - {type: disc, centre: [-40 deg, 35 deg], radius: 0 deg, spacing: 15 km,\n"
-     "       outside: 150 km, transition: gaussian, width: 14.142135623730951 deg}"},
+int positive(const std::string& option, const std::string& word) {
+  char* end = nullptr;
+  const long value = std::strtol(word.c_str(), &end, 10);
+  if (word.empty() || *end != '\0' || value < 1 || value > 1024) {
+    throw std::invalid_argument(option + " " + word + ": must be whole numbers in 1..1024\n" +
+                                kUsage);
+  }
+  return static_cast<int>(value);
+}
+
+std::vector<int> thread_counts(const std::string& list) {
+  std::vector<int> counts;
+  std::size_t begin = 0;
+  while (begin <= list.size()) {
+    const std::size_t comma = std::min(list.find(',', begin), list.size());
+    counts.push_back(positive("--threads", list.substr(begin, comma - begin)));
+    begin = comma + 1;
+  }
+  return counts;
+}
+
+Arguments parse(const std::vector<std::string>& words) {
+  Arguments arguments;
+  for (std::size_t i = 0; i < words.size(); ++i) {
+    const auto value = [&] {
+      if (i + 1 == words.size()) throw std::invalid_argument(words[i] + ": value?\n" + kUsage);
+      return words[++i];
+    };
+    if (words[i] == "--threads") {
+      arguments.threads = thread_counts(value());
+    } else if (words[i] == "--repeat") {
+      arguments.repeats = positive("--repeat", value());
+    } else if (words[i] == "--label") {
+      arguments.label = value();
+    } else if (words[i] == "--large") {
+      arguments.with_large = true;
+    } else if (words[i] == "--list") {
+      arguments.only_lists = true;
+    } else if (words[i].rfind("--", 0) == 0) {
+      throw std::invalid_argument(words[i] + ": unknown option\n" + kUsage);
+    } else {
+      arguments.names.push_back(words[i]);
+    }
+  }
+  if (arguments.threads.empty()) {
+    arguments.threads.push_back(1);
+    const auto n_cores = static_cast<int>(std::thread::hardware_concurrency());
+    if (n_cores > 1) arguments.threads.push_back(n_cores);
+  }
+  return arguments;
+}
+
+std::vector<Case> chosen(const Arguments& arguments) {
+  std::vector<Case> out;
+  std::vector<std::string> unknown = arguments.names;
+  for (Case& one : all_cases()) {
+    const bool is_named = std::erase(unknown, one.name) > 0;
+    const bool is_default = arguments.names.empty() && !one.is_large;
+    if (is_named || is_default || (arguments.with_large && one.is_large)) {
+      out.push_back(std::move(one));
+    }
+  }
+  if (!unknown.empty()) throw std::invalid_argument(unknown[0] + ": no such case\n" + kUsage);
+  return out;
+}
+
+bool has_data(const Case& one) {
+  const std::vector<std::string> folders = {kDefaultDataFolder};
+  if (one.data_file.empty() || has_data_file(one.data_file, ".", folders)) return true;
+  std::fprintf(stderr, "%s is left out: %s of Debian's ferret-datasets is missing\n",
+               one.name.c_str(), one.data_file.c_str());
+  return false;
+}
+
+/// One case on one number of threads.
+struct Entry {
+  const Case* one = nullptr;
+  int threads = 1;
+  Json line = {};  ///< null until the first run
+  bool has_failed = false;
 };
 
-/// Most memory that the process has held so far; grows from case to case, so large cases come last.
-double peak_mib() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024.0;
-}
-
-double seconds_since(std::chrono::steady_clock::time_point start) {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-}
-
-void print_number(const char* key, double value) { std::printf(", \"%s\": %.6g", key, value); }
-
-void print_quality(const Quality& quality) {
-  print_number("area_length_min", quality.area_length_min.value);
-  print_number("area_length_p01", quality.area_length_p01);
-  print_number("area_length_mean", quality.area_length_mean);
-  print_number("angle_min_deg", quality.angle_min_deg.value);
-  print_number("angle_max_deg", quality.angle_max_deg.value);
-  print_number("angle_mad_deg", quality.angle_mad_deg);
-  print_number("degree_6", quality.degree_6);
-  print_number("relative_edge_min", quality.relative_edge_min.value);
-  print_number("relative_edge_max", quality.relative_edge_max.value);
-  print_number("relative_edge_std", quality.relative_edge_std);
-  print_number("dual_ratio_min", quality.dual_ratio_min.value);
-  print_number("stagger_max", quality.stagger_max.value);
-  print_number("obtuse", static_cast<double>(quality.n_obtuse));
-}
-
-/// Building alone, from the finished grid's vertices: ours and the yardstick's.
-void print_building(parallel::Executor& exec, const Mesh& mesh) {
-  std::vector<Vec3> points;
-  points.reserve(mesh.vertices.size());
-  for (const Vertex& vertex : mesh.vertices) points.push_back(vertex.position());
-  const auto start = std::chrono::steady_clock::now();
-  const Mesh built = delaunay(exec, points);
-  print_number("delaunay_s", seconds_since(start));
-  if (const auto other_s = yardstick_s(points)) print_number("cgal_s", *other_s);
-}
-
-void run(const Case& benchmark_case, int threads) {
-  const std::string folder =
-      (std::filesystem::temp_directory_path() / "delos_benchmark_XXXXXX").string();
-  std::string name = folder;
-  if (mkdtemp(name.data()) == nullptr) throw Error(ErrorKind::output, "no temporary folder");
-  const std::string yaml = std::string(benchmark_case.yaml) + "\noutput: {directory: " + name +
-                           ", name: grid, formats: [mpas]}";
-  parallel::Executor exec(threads);
-  Monitor monitor;
-  Context context{exec, monitor};
-  const Settings settings = read_settings(parse_config(yaml, benchmark_case.name), name);
-  const Product product = generate(context, settings, {true, name});
-  write_outputs(context, output_content(product, "delos_benchmark"), name);
-  std::filesystem::remove_all(name);
-
-  const auto n = static_cast<double>(product.mesh.n_vertices());
-  std::printf("{\"case\": \"%s\", \"threads\": %d", benchmark_case.name, threads);
-  print_number("vertices", n);
-  double grid_s = 0.0;
-  for (const PhaseTime& phase : monitor.phases()) {
-    print_number((phase.phase + "_s").c_str(), phase.wall_s);
-    if (phase.phase == "refine") print_number("refine_vertices_per_s", n / phase.wall_s);
-    if (phase.phase == "refine" || phase.phase == "relax") grid_s += phase.wall_s;
+std::vector<Entry> entries_of(const std::vector<Case>& cases, const std::vector<int>& threads) {
+  std::vector<Entry> entries;
+  for (const Case& one : cases) {
+    if (!has_data(one)) continue;
+    for (const int n : threads) entries.push_back({&one, n});
   }
-  print_number("vertices_per_s", n / grid_s);
-  print_number("peak_mib", peak_mib());
-  print_quality(product.report.quality);
-  if (product.mesh.n_vertices() > 0 && settings.surface.is_sphere()) {
-    print_building(exec, product.mesh);
+  return entries;
+}
+
+/// Another run, in a process of its own, so that memory is that of one run.
+void measure_again(Entry& entry) {
+  try {
+    const testing::TemporaryFolder folder;
+    const Json next = Json::parse(
+        run_in_child([&] { return measure(*entry.one, entry.threads, folder.file(".")).dump(); }));
+    if (entry.line.is_null()) {
+      entry.line = next;
+    } else {
+      join(next, entry.line);
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s on %d threads: %s\n", entry.one->name.c_str(), entry.threads,
+                 error.what());
+    entry.has_failed = true;
   }
-  std::printf(", \"digest\": \"%s\"}\n", product.report.digest.c_str());
+}
+
+void print(const Json& line) {
+  std::printf("%s\n", line.dump().c_str());
   std::fflush(stdout);
 }
 
-int run_all(int argc, char** argv) {
-  int threads = 1;
-  std::vector<std::string> names;
-  for (int i = 1; i < argc; ++i) {
-    if (std::string(argv[i]) == "--threads" && i + 1 < argc) {
-      threads = std::atoi(argv[++i]);
-    } else {
-      names.emplace_back(argv[i]);
+/// Prints what was measured; false when a run failed or a grid depends on the threads.
+bool print_lines(std::vector<Entry>& entries) {
+  bool is_good = true;
+  const Entry* before = nullptr;
+  for (Entry& entry : entries) {
+    is_good = is_good && !entry.has_failed;
+    if (entry.has_failed) continue;
+    add_rates(entry.line);
+    print(entry.line);
+    if (before != nullptr && before->one == entry.one &&
+        before->line.at("digest") != entry.line.at("digest")) {
+      std::fprintf(stderr, "%s: the grids of %d and %d threads differ\n", entry.one->name.c_str(),
+                   before->threads, entry.threads);
+      is_good = false;
+    }
+    before = &entry;
+  }
+  return is_good;
+}
+
+void print_names() {
+  for (const Case& one : all_cases()) {
+    std::printf("%s%s\n", one.name.c_str(), one.is_large ? " (large)" : "");
+  }
+}
+
+int run_all(const Arguments& arguments) {
+  const std::vector<Case> cases = chosen(arguments);
+  if (arguments.only_lists) {
+    print_names();
+    return 0;
+  }
+  Json head = machine();
+  head["label"] = arguments.label;
+  print({{"machine", head}});
+  std::vector<Entry> entries = entries_of(cases, arguments.threads);
+  // Everything once, then everything again: a machine that is slow for a minute then spoils one
+  // repeat of each, not all repeats of one.
+  for (int repeat = 0; repeat < arguments.repeats; ++repeat) {
+    for (Entry& entry : entries) {
+      if (!entry.has_failed) measure_again(entry);
     }
   }
-  int n_run = 0;
-  for (const Case& benchmark_case : kCases) {
-    if (!names.empty() && std::find(names.begin(), names.end(), benchmark_case.name) == names.end())
-      continue;
-    run(benchmark_case, threads);
-    ++n_run;
-  }
-  if (n_run == 0) std::fprintf(stderr, "no such case\n");
-  return n_run == 0 ? 2 : 0;
+  return print_lines(entries) ? 0 : 1;
 }
 
 }  // namespace
@@ -142,9 +201,9 @@ int run_all(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   try {
-    return delos::benchmark::run_all(argc, argv);
+    return delos::benchmark::run_all(delos::benchmark::parse({argv + 1, argv + argc}));
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s\n", error.what());
-    return 1;
+    return 2;
   }
 }

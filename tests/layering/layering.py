@@ -31,6 +31,8 @@ BELOW = {
 # What adapters may name: the phase functions and what these hand over.
 INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "dual", "sizing", "triangulation",
                           "geometry", "core"]
+# Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
+NO_LAYERS = ["cmake", "performance"]
 # Layers whose code is on the path from configuration to grid: no libm there.
 GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "dual"]
 
@@ -142,7 +144,8 @@ def check_cmake(root):
 
 def violations(root):
     component = root / "component"
-    for folder in sorted(p for p in component.iterdir() if p.is_dir() and p.name != "cmake"):
+    for folder in sorted(p for p in component.iterdir()
+                         if p.is_dir() and p.name not in NO_LAYERS):
         if folder.name not in BELOW:
             yield "layer", f"component/{folder.name}: unknown layer; give it a place in layering.py"
         elif any(folder.glob("*.?pp")) and not (folder / "README.md").exists():

@@ -25,7 +25,7 @@ Report sample_report() {
       measure_quality(context, report.surface, samples::bisected_icosahedron(report.surface, 3));
   report.expected_vertices = 640.0;
   report.digest = std::string(64, 'a');
-  for (int i = 0; i < 40; ++i) report.phases.push_back({"a phase of long name", 1.5, 10});
+  for (int i = 0; i < 40; ++i) report.phases.push_back({"a phase of long name", 1.5, 2.5, 10});
   report.sections.push_back(
       {"refine", {{"n_inserted", std::int64_t{630}}, {"radius_edge", 1.05}, {"repair", true}}});
   report.inputs.push_back({"etopo.nc", "0123"});
@@ -54,6 +54,9 @@ TEST_CASE("the JSON report reads back to the same numbers") {
   CHECK(json["refine"]["repair"] == true);
   CHECK(json["inputs"][0]["sha256"] == "0123");
   CHECK(json["phases"].size() == 40);
+  CHECK(json["phases"][0]["wall_s"] == 1.5);
+  CHECK(json["phases"][0]["cpu_s"] == 2.5);
+  CHECK(json["phases"][0]["items"] == 10);
 }
 
 TEST_CASE("a number that is not finite is refused by its name") {
