@@ -14,7 +14,7 @@ namespace detail {
 /// From this size on an array gets large pages: two of 2 MiB, so that little is wasted.
 inline constexpr std::size_t kLargeBytes = std::size_t{4} << 20;
 inline constexpr std::size_t kLargePage = std::size_t{2} << 20;
-/// Memory aligned to kLargePage for which the system was asked for large pages; std::bad_alloc.
+/// Memory in large pages where the system grants them; std::bad_alloc.
 void* allocate_large(std::size_t bytes);
 void deallocate_large(void* memory, std::size_t bytes) noexcept;
 }  // namespace detail

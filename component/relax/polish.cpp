@@ -40,13 +40,20 @@ double score(const Mesh& mesh, Index tri) {
   });
 }
 
+bool is_bad(const Mesh& mesh, Index tri, double target) {
+  const auto& v = mesh.triangle(tri).vertex;
+  return !is_clearly_good(mesh.vertices[at(v[0])], mesh.vertices[at(v[1])], mesh.vertices[at(v[2])],
+                          target) &&
+         score(mesh, tri) < target;
+}
+
 // Ids of the triangles below the target, ascending.
 std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, double target) {
   return parallel::collect<Index>(
       exec, mesh.n_triangles(), kScanGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
-          if (score(mesh, tri) < target) found.push_back(tri);
+          if (is_bad(mesh, tri, target)) found.push_back(tri);
         }
       });
 }
@@ -192,7 +199,7 @@ std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index>
   }
   std::sort(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-  std::erase_if(bad, [&](Index tri) { return score(mesh, tri) >= target; });
+  std::erase_if(bad, [&](Index tri) { return !is_bad(mesh, tri, target); });
   return bad;
 }
 
@@ -201,8 +208,9 @@ std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index>
 PolishReport polish(Context& context, const Target& target, const RelaxOptions& options,
                     Mesh& mesh) {
   PolishReport report;
+  const Phase phase(context.monitor, "polish", mesh.n_triangles());
   std::vector<Index> bad = find_bad(context.exec, mesh, options.target_quality);
-  const Phase phase(context.monitor, "polish", static_cast<std::int64_t>(bad.size()));
+  context.monitor.advance(mesh.n_triangles() - static_cast<std::int64_t>(bad.size()));
   TriedMeans tried(mesh.vertices.size(), 0);
   TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
   for (int round = 0; round < options.polish_rounds && !bad.empty(); ++round) {

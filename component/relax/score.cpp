@@ -43,4 +43,30 @@ double cotangent(const Vertex& a, const Vertex& b, const Vertex& c) {
   return ab.dot(ac) / std::sqrt(ab.cross(ac).squaredNorm());
 }
 
+bool is_clearly_good(const Vertex& a, const Vertex& b, const Vertex& c, double target) {
+  const Vec3 pa = a.position();
+  const Vec3 ab = b.position() - pa, ac = c.position() - pa;
+  const Vec3 normal = ab.cross(ac);
+  const double cross = normal.squaredNorm();  // (twice the area)^2
+  const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), dot_a = ab.dot(ac);
+  const double dot_b = bb - dot_a, dot_c = cc - dot_a, aa = dot_b + dot_c;
+  // area_length = 2 sqrt(3) |normal| / (aa + bb + cc).
+  const double squares = aa + bb + cc;
+  if (!(normal.dot(pa) > 0.0 && 12.0 * cross >= target * target * squares * squares)) return false;
+  const double shortest = target / (2.0 * kShortSide), longest = kLongSide / (2.0 * target);
+  const auto has_length = [&](double square, double h) {
+    return square >= shortest * shortest * h * h && square <= longest * longest * h * h;
+  };
+  // Angles so near to 60 degrees that no side of theirs can be staggered too much.
+  const double room = (1.0 - target) / (2.0 * kSideWeight);
+  const double low = kEquilateralCotangent - room, high = kEquilateralCotangent + room;
+  const auto has_angle = [&](double dot) {
+    return dot > 0.0 && dot * dot <= high * high * cross &&
+           (low <= 0.0 || dot * dot >= low * low * cross);
+  };
+  return has_length(bb, a.spacing + b.spacing) && has_length(cc, a.spacing + c.spacing) &&
+         has_length(aa, b.spacing + c.spacing) && has_angle(dot_a) && has_angle(dot_b) &&
+         has_angle(dot_c);
+}
+
 }  // namespace delos

@@ -33,18 +33,22 @@ inline double side_score(double cot, double other) {
   return 1.0 - kSideWeight * std::abs(cot - other);
 }
 
+/// Whether a triangle's score and those of its sides are all at least `target`, found without a
+/// root or a division; false says nothing. Almost all triangles of a relaxed mesh pass.
+bool is_clearly_good(const Vertex& a, const Vertex& b, const Vertex& c, double target);
+
 /// Lowers `least` to the scores of those sides of a triangle that are its own: a side belongs to
 /// the triangle whose angle there is farther from 60 degrees. across(k): the cotangent on the other
 /// side of side k.
+inline constexpr double kEquilateralCotangent = 0.57735026918962576;  // of 60 degrees
 template <class Across>
 double with_own_sides(double least, const Cotangents& cot, const Across& across) {
-  constexpr double kEquilateral = 0.57735026918962576;  // cot 60 degrees
   for (std::size_t k = 0; k < 3; ++k) {
-    const double deviation = std::abs(cot[k] - kEquilateral);
+    const double deviation = std::abs(cot[k] - kEquilateralCotangent);
     // Twice the deviation is the most that the cotangents can differ by.
     if (1.0 - 2.0 * kSideWeight * deviation >= least) continue;
     const double other = across(k);
-    if (std::abs(other - kEquilateral) <= deviation)
+    if (std::abs(other - kEquilateralCotangent) <= deviation)
       least = std::min(least, side_score(cot[k], other));
   }
   return least;

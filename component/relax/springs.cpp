@@ -104,8 +104,9 @@ bool is_flat_or_turned(const Triangle& t, const Array<Vertex>& vertices) {
   const Vec3 ab = vertices[static_cast<std::size_t>(t.vertex[1])].position() - a;
   const Vec3 ac = vertices[static_cast<std::size_t>(t.vertex[2])].position() - a;
   const double squares = ab.squaredNorm() + ac.squaredNorm() + (ac - ab).squaredNorm();
-  // |a| >= the least radius; the normal of a sound triangle is nearly parallel to a.
-  return !(ab.cross(ac).dot(a) > kFlattest / 3.0 * squares * std::sqrt(a.squaredNorm()));
+  // The normal of a sound triangle is nearly parallel to a; |a| <= 1, which spares most the root.
+  const double height = ab.cross(ac).dot(a), least = kFlattest / 3.0 * squares;
+  return !(height > least) && !(height > least * std::sqrt(a.squaredNorm()));
 }
 
 // Triangles that a move has spoilt, ascending.
