@@ -158,7 +158,7 @@ void MpasFile::add_attributes(const Provenance& provenance) {
   file_.attribute(all, "source", "delos " + provenance.version);
   file_.attribute(all, "file_id", file_id(provenance.digest));
   if (!provenance.parent_id.empty()) file_.attribute(all, "parent_id", provenance.parent_id);
-  write_provenance(file_, provenance);
+  write_provenance(file_, provenance, {"nVertices", "nCells"});
 }
 
 void MpasFile::add_place(const std::string& entity, DimensionId rows,

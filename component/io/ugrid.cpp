@@ -49,6 +49,7 @@ struct Topology {
   /// pairs; null: not known.
   std::function<std::vector<double>(std::size_t first, std::span<const Index> nodes)>
       edge_spacing_m;
+  ElementNames elements;
 };
 
 class UgridFile {
@@ -92,7 +93,7 @@ void UgridFile::define(const UgridSurface& surface, const Provenance& provenance
   define_topology();
   file_.attribute(netcdf::kGlobal, "Conventions", "CF-1.8 UGRID-1.0");
   file_.attribute(netcdf::kGlobal, "source", "delos " + provenance.version);
-  write_provenance(file_, provenance);
+  write_provenance(file_, provenance, topology_.elements);
   file_.end_definitions();
 }
 
@@ -362,6 +363,7 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Ugri
     return vertex.size();
   };
   topology.for_each_edge = [&](const auto& edge) { for_each_edge_of(mesh, edge); };
+  topology.elements = {topology.name + "_faces", topology.name + "_nodes"};
   if (surface.spacing != nullptr) {
     topology.edge_spacing_m = [&](std::size_t, std::span<const Index> nodes) {
       return spacing_at_middles(mesh, surface, nodes);
@@ -392,6 +394,7 @@ void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenan
   topology.for_each_edge = [&](const auto& edge) {
     for (const auto& vertices : grid.vertices_on_edge) edge(vertices[0], vertices[1]);
   };
+  topology.elements = {topology.name + "_nodes", topology.name + "_faces"};
   if (!grid.edge_spacing_m.empty()) {
     topology.edge_spacing_m = [&](std::size_t first, std::span<const Index> nodes) {
       const auto begin = grid.edge_spacing_m.begin() + static_cast<std::ptrdiff_t>(first);
@@ -428,7 +431,9 @@ void write_spacing(const std::string& path, const LatLonField& spacing_m,
     file.attribute(lon_id, "standard_name", "longitude");
     file.attribute(lon_id, "units", "degrees_east");
     file.attribute(netcdf::kGlobal, "Conventions", "CF-1.8");
-    write_provenance(file, provenance);
+    Provenance notes = provenance;
+    notes.certificate.reset();  // of a grid, which this file does not hold
+    write_provenance(file, notes, {});
     file.end_definitions();
     std::vector<double> degrees;
     degrees.reserve(static_cast<std::size_t>(spacing_m.n_rows()));
