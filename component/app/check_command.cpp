@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 
 #include "app/commands.hpp"
@@ -13,7 +14,7 @@ namespace {
 
 // Files hold degrees or metres, so points come back to some units in the last place only.
 constexpr double kSurfaceTolerance = 1e-9;
-constexpr double kOwnTolerance = 1e-9;
+constexpr double kOwnTolerance = 1e-9;  // where the edges are not known
 // MPAS-Tools computes in single precision here and there.
 constexpr double kForeignTolerance = 1e-6;
 constexpr std::size_t kMaxDefects = 20;
@@ -65,7 +66,10 @@ std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded) 
     if (n_illegal > 0) out.push_back(text(n_illegal, " sides are not Delaunay"));
   }
   add_certificate_defects(context, loaded, out);
-  const double tolerance = file.origin.digest.empty() ? kForeignTolerance : kOwnTolerance;
+  double tolerance = file.origin.digest.empty() ? kForeignTolerance : kOwnTolerance;
+  if (file.mesh) {
+    tolerance = std::max(tolerance, rounding_tolerance(file.surface, loaded.report.quality));
+  }
   for (const BrokenRule& rule : check_grid(context, loaded.grid, tolerance)) {
     out.push_back(to_string(rule));
   }
