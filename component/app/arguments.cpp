@@ -9,7 +9,10 @@
 namespace delos::app {
 namespace {
 
-void add_mesh(CLI::App& app, Arguments& out, std::vector<std::string>& overrides) {
+using Words = std::vector<std::string>;
+using Pairs = std::vector<std::pair<std::string, std::string>>;
+
+void add_mesh(CLI::App& app, Arguments& out, Words& overrides) {
   CLI::App* const mesh = app.add_subcommand("mesh", "make a grid from a YAML configuration");
   mesh->add_option("CONFIG", out.file, "configuration, e.g. config/world_ocean.yaml")->required();
   mesh->add_option("-o,--output", out.directory, "folder for the files (output.directory)");
@@ -22,8 +25,8 @@ void add_mesh(CLI::App& app, Arguments& out, std::vector<std::string>& overrides
   mesh->callback([&out] { out.command = Command::mesh; });
 }
 
-void add_reader(CLI::App& app, Arguments& out, Command command, const char* name,
-                const char* help) {
+CLI::App* add_reader(CLI::App& app, Arguments& out, Command command, const char* name,
+                     const char* help) {
   CLI::App* const reader = app.add_subcommand(name, help);
   reader->add_option("FILE", out.file, "an MPAS or UGRID file, or a folder with such files")
       ->required();
@@ -32,18 +35,29 @@ void add_reader(CLI::App& app, Arguments& out, Command command, const char* name
     reader->add_option("-o,--output", out.directory, "folder for the pictures")->default_val(".");
   }
   reader->callback([&out, command] { out.command = command; });
+  return reader;
 }
 
-void split_overrides(const std::vector<std::string>& words, Arguments& out) {
+void add_check(CLI::App& app, Arguments& out, Words& require) {
+  add_reader(app, out, Command::check, "check",
+             "read a grid back, check every identity and its certificate")
+      ->add_option("--require", require,
+                   "key=value beside or in place of what the file's configuration requires, e.g. "
+                   "--require 'angle_max=85 deg'")
+      ->allow_extra_args(false);
+}
+
+Pairs split(const Words& words, const char* option, const char* example) {
+  Pairs out;
   for (const std::string& word : words) {
     const std::size_t equals = word.find('=');
     if (equals == std::string::npos || equals == 0) {
-      throw CLI::ValidationError("--set", "'" + word +
-                                              "' is not key=value, e.g. --set "
-                                              "'sizing.clamp.min=60 km'");
+      throw CLI::ValidationError(
+          option, "'" + word + "' is not key=value, e.g. " + option + " '" + example + "'");
     }
-    out.overrides.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    out.emplace_back(word.substr(0, equals), word.substr(equals + 1));
   }
+  return out;
 }
 
 std::string command_line(int argc, const char* const* argv) {
@@ -60,15 +74,16 @@ ParseResult parse_arguments(int argc, const char* const* argv, Arguments& out) {
   app.footer(kStatusHelp);
   app.set_version_flag("--version", std::string("delos ") + library_version());
   app.require_subcommand(1);
-  std::vector<std::string> overrides;
+  Words overrides, require;
   add_mesh(app, out, overrides);
-  add_reader(app, out, Command::check, "check", "read a grid back and check every identity");
+  add_check(app, out, require);
   add_reader(app, out, Command::info, "info", "counts, digest, certificate and origin of a grid");
   add_reader(app, out, Command::plot, "plot", "pictures of a grid");
   out.command_line = command_line(argc, argv);
   try {
     app.parse(argc, argv);
-    split_overrides(overrides, out);
+    out.overrides = split(overrides, "--set", "sizing.clamp.min=60 km");
+    out.require = split(require, "--require", "angle_max=85 deg");
   } catch (const CLI::ParseError& error) {
     const int status = app.exit(error);
     return {false, status == 0 ? kSuccess : kUsage};

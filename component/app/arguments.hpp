@@ -16,6 +16,7 @@ struct Arguments {
   int threads = 0;        ///< 0: what the configuration says
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value
+  std::vector<std::pair<std::string, std::string>> require;    ///< --require key=value
   std::string command_line;                                    ///< for the files' history
 };
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
 #include <cstdio>
 
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
 #include "app/loaded_grid.hpp"
 #include "dual/validate.hpp"
+#include "lifecycle/require.hpp"
 #include "triangulation/validate.hpp"
 
 namespace delos::app {
@@ -12,10 +14,44 @@ namespace {
 
 // Files hold degrees or metres, so points come back to some units in the last place only.
 constexpr double kSurfaceTolerance = 1e-9;
-constexpr double kOwnTolerance = 1e-9;
+constexpr double kOwnTolerance = 1e-9;  // where the edges are not known
 // MPAS-Tools computes in single precision here and there.
 constexpr double kForeignTolerance = 1e-6;
 constexpr std::size_t kMaxDefects = 20;
+
+/// What the file says about itself against what its arrays say.
+void add_certificate_defects(Context& context, const LoadedGrid& loaded,
+                             std::vector<std::string>& out) {
+  const GridFile& file = loaded.file;
+  if (!file.mesh) return;
+  if (file.origin.certificate) {
+    const CertifiedMesh subject{file.surface, file.spacing, *file.mesh, file.latitude};
+    for (std::string& defect :
+         certificate_defects(context, subject, loaded.report.quality, *file.origin.certificate)) {
+      out.push_back(std::move(defect));
+    }
+  } else if (!file.origin.digest.empty()) {
+    out.emplace_back("the file has a digest by delos, but no certificate.");
+  }
+}
+
+/// What the grid must meet: by the file's own configuration, then by the command line.
+Requirements requirements_of(const Arguments& arguments, const FileOrigin& origin,
+                             std::vector<std::string>& defects) {
+  ConfigNode root;
+  root.kind = ConfigNode::Kind::map;
+  try {
+    if (!origin.config.empty()) root = parse_config(origin.config, "attribute delos_config");
+    static_cast<void>(read_require(root));
+  } catch (const Error& error) {
+    defects.push_back(text("what was required can't be read: ", error.what()));
+    root = ConfigNode{};
+  }
+  for (const auto& [key, value] : arguments.require) {
+    override_config(root, "require." + key, value);
+  }
+  return read_require(root).bounds;
+}
 
 std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded) {
   std::vector<std::string> out;
@@ -29,11 +65,29 @@ std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded) 
     const std::int64_t n_illegal = loaded.report.quality.n_non_delaunay;
     if (n_illegal > 0) out.push_back(text(n_illegal, " sides are not Delaunay"));
   }
-  const double tolerance = file.origin.digest.empty() ? kForeignTolerance : kOwnTolerance;
+  add_certificate_defects(context, loaded, out);
+  double tolerance = file.origin.digest.empty() ? kForeignTolerance : kOwnTolerance;
+  if (file.mesh) {
+    tolerance = std::max(tolerance, rounding_tolerance(file.surface, loaded.report.quality));
+  }
   for (const BrokenRule& rule : check_grid(context, loaded.grid, tolerance)) {
     out.push_back(to_string(rule));
   }
   return out;
+}
+
+std::string counted(std::size_t n, const char* what) {
+  return text(n, " ", what, n == 1 ? "" : "s");
+}
+
+std::string verdict(std::size_t n_defects, std::size_t n_missed) {
+  const std::string out = n_defects == 0 ? "sound" : counted(n_defects, "defect");
+  return n_missed == 0 ? out : out + ", misses " + counted(n_missed, "requirement");
+}
+
+const char* certificate_note(const GridFile& file, bool is_sound) {
+  if (!file.origin.certificate) return ", no certificate recorded";
+  return file.mesh && is_sound ? ", as certified" : "";
 }
 
 }  // namespace
@@ -44,15 +98,26 @@ int run_check(const Arguments& arguments, const std::atomic<bool>& cancel) {
   Context context{exec, monitor};
   int status = kSuccess;
   for (const std::string& path : grid_files(arguments.file)) {
-    const LoadedGrid loaded = load_grid(context, path);
-    const std::vector<std::string> defects = defects_of(context, loaded);
-    if (loaded.file.mesh) std::printf("%s", report_text(loaded.report).c_str());
+    LoadedGrid loaded = load_grid(context, path);
+    std::vector<std::string> defects = defects_of(context, loaded);
+    const Requirements required = requirements_of(arguments, loaded.file.origin, defects);
+    std::vector<std::string>& missed = loaded.report.missed;
+    if (loaded.file.mesh) {
+      missed = missed_requirements(required, loaded.report.quality);
+      std::printf("%s", report_text(loaded.report).c_str());
+    }
     for (const std::string& defect : defects) std::printf("defect: %s\n", defect.c_str());
-    std::printf("%s: %s (%s, %lld cells%s)\n\n", path.c_str(),
-                defects.empty() ? "sound" : text(defects.size(), " kinds of defect").c_str(),
-                loaded.file.origin.format.c_str(), static_cast<long long>(loaded.grid.n_cells()),
-                loaded.file.mesh ? "" : ", with a border: the triangulation is not measured");
-    if (!defects.empty()) status = kDefects;
+    for (const std::string& sentence : missed) std::printf("missed: %s\n", sentence.c_str());
+    std::printf("%s: %s (%s, %lld cells%s%s)\n\n", path.c_str(),
+                verdict(defects.size(), missed.size()).c_str(), loaded.file.origin.format.c_str(),
+                static_cast<long long>(loaded.grid.n_cells()),
+                loaded.file.mesh ? "" : ", with a border: the triangulation is not measured",
+                certificate_note(loaded.file, defects.empty()));
+    if (!defects.empty()) {
+      status = kDefects;
+    } else if (!missed.empty() && status == kSuccess) {
+      status = exit_status(ErrorKind::quality);
+    }
   }
   return status;
 }

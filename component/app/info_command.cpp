@@ -28,6 +28,29 @@ std::string surface_of(const GridFile& file) {
   return text(radii_m.x(), " x ", radii_m.y(), " x ", radii_m.z(), " m");
 }
 
+void print_certificate(const std::optional<Certificate>& certificate) {
+  if (!certificate) {
+    print("certificate", "");
+    return;
+  }
+  const char* name = "certificate";
+  for (const std::string& line : certificate_text(*certificate)) {
+    print(name, line);
+    name = "";
+  }
+  const auto worst = [](const char* measure, const Extreme& extreme, const char* unit = "") {
+    print(measure, text(extreme.value, unit, ", at ", describe(extreme)));
+  };
+  print("well centred", text(100.0 * certificate->well_centred, " % of the triangles, ",
+                             certificate->n_obtuse, " are obtuse"));
+  worst("largest angle", certificate->angle_max_deg, " deg");
+  if (certificate->relative_edge_min) {
+    worst("least edge/wanted", *certificate->relative_edge_min);
+  }
+  worst("least dual/edge", certificate->dual_ratio_min);
+  worst("largest stagger", certificate->stagger_max);
+}
+
 void print_info(const GridFile& file) {
   const FileOrigin& origin = file.origin;
   print("file", file.path);
@@ -36,13 +59,7 @@ void print_info(const GridFile& file) {
   print("radii", surface_of(file));
   print("digest", origin.digest);
   print("delos version", origin.version);
-  if (origin.has_certificate) {
-    print("well centred", text(100.0 * origin.well_centred, " % of the triangles"));
-    print("min edge / wanted", text(origin.min_relative_edge));
-    print("min dual / primal", text(origin.min_dual_ratio));
-  } else {
-    print("certificate", "");
-  }
+  print_certificate(origin.certificate);
   for (const InputRecord& input : origin.inputs) print("input", input.sha256 + "  " + input.path);
   print("history", origin.history);
   if (!origin.config.empty()) std::printf("configuration:\n%s\n", origin.config.c_str());

@@ -20,7 +20,14 @@ LoadedGrid load_grid(Context& context, const std::string& path) {
   out.report.n_threads = context.exec.n_threads();
   out.report.digest = file.origin.digest;
   if (file.mesh) {
-    out.report.quality = measure_quality(context, file.surface, *file.mesh, file.latitude);
+    try {
+      out.report.quality =
+          measure_quality(context, file.surface, file.spacing, *file.mesh, file.latitude);
+    } catch (const Error& error) {
+      // Our own meshes can be measured, so the file is to blame.
+      if (error.kind() != ErrorKind::internal) throw;
+      throw Error(ErrorKind::input, text(path, ": ", error.what()));
+    }
   }
   return out;
 }

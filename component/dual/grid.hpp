@@ -56,6 +56,9 @@ struct Grid {
   std::vector<double> edge_angle_rad;               // [n_edges] of the normal from local east
   Ragged<double> weights_on_edge;                   // tangential weights, as edges_on_edge
   std::vector<double> cell_spacing_m;               // [n_cells] the spacing that was asked for
+  // The same at the projected middle of the two cells, [n_edges]; empty where nobody filled it in
+  // (build_grid has no field). Not part of the digest.
+  std::vector<double> edge_spacing_m;
 
   std::int64_t n_cells() const { return static_cast<std::int64_t>(cell_position.size()); }
   std::int64_t n_edges() const { return static_cast<std::int64_t>(cells_on_edge.size()); }

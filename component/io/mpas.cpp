@@ -158,7 +158,7 @@ void MpasFile::add_attributes(const Provenance& provenance) {
   file_.attribute(all, "source", "delos " + provenance.version);
   file_.attribute(all, "file_id", file_id(provenance.digest));
   if (!provenance.parent_id.empty()) file_.attribute(all, "parent_id", provenance.parent_id);
-  write_provenance(file_, provenance);
+  write_provenance(file_, provenance, {"nVertices", "nCells"});
 }
 
 void MpasFile::add_place(const std::string& entity, DimensionId rows,
@@ -296,9 +296,14 @@ void MpasFile::add_diagnostics() {
     const double ratio = finest / spacing[at(i)];
     return ratio * ratio * ratio * ratio;
   });
-  if (spacing.empty()) return;
-  add<double>("delos_spacing", cells_,
-              [this, &spacing](std::int64_t i) { return length(spacing[at(i)]); });
+  if (!spacing.empty()) {
+    add<double>("delos_spacing", cells_,
+                [this, &spacing](std::int64_t i) { return length(spacing[at(i)]); });
+  }
+  if (!grid.edge_spacing_m.empty()) {
+    add<double>("delos_edge_spacing", edges_,
+                [this, &grid](std::int64_t i) { return length(grid.edge_spacing_m[at(i)]); });
+  }
 }
 
 void MpasFile::finish() {
@@ -310,7 +315,7 @@ void MpasFile::finish() {
 std::uint64_t size_bytes(std::int64_t n_cells, std::size_t max_edges) {
   constexpr std::uint64_t kReal = 8, kId = 4, kPlace = 5 * kReal + kId;
   const std::uint64_t cell = kPlace + 5 * kReal + kId * (1 + 3 * max_edges);
-  const std::uint64_t edge = kPlace + 3 * kReal + 5 * kId + 2 * max_edges * (kId + kReal);
+  const std::uint64_t edge = kPlace + 4 * kReal + 5 * kId + 2 * max_edges * (kId + kReal);
   const std::uint64_t vertex = kPlace + 3 * (2 * kId + kReal) + 3 * kReal + 2 * kId;
   return static_cast<std::uint64_t>(n_cells) * (cell + 3 * edge + 2 * vertex);
 }

@@ -19,15 +19,17 @@ struct MpasOptions {
 
 /// Writes every variable of the MPAS mesh specification, ids from 1, 0 = none; atomically.
 /// Error(output) when the surface is no sphere or the file can't be written: then nothing is.
-/// Beyond the specification: `delos_spacing` [nCells], the spacing that was asked for, and the
-/// attributes of write_provenance().
+/// Beyond the specification: `delos_spacing` [nCells] and `delos_edge_spacing` [nEdges] (at the
+/// projected middle of the edge's cells), the spacing that was asked for, each when the grid has
+/// it, and the attributes of write_provenance().
 void write_mpas(const std::string& path, const Grid& grid, const Provenance& provenance,
                 const MpasOptions& options = {});
 
 /// Reads all back: write_mpas, then read_mpas gives the grid's tables exactly and its numbers to
 /// rounding (exactly, on a unit sphere). Any closed or open MPAS mesh on a sphere is accepted;
 /// missing neighbours become kNone. A file without `delos_spacing` gets gridSpacing, or else the
-/// mean distance to the neighbours. The radius is that of the file: 1 m for a unit sphere.
+/// mean distance to the neighbours, as cell_spacing_m; one without `delos_edge_spacing` gets no
+/// edge_spacing_m. The radius is that of the file: 1 m for a unit sphere.
 /// Error(input) naming the variable and the entry when a table is missing or names what is not
 /// there.
 Grid read_mpas(const std::string& path);

@@ -181,6 +181,9 @@ void MpasTables::read_measures(Grid& grid) const {
   grid.vertex_distance_m = numbers("dvEdge", n_edges_);
   grid.edge_angle_rad = numbers("angleEdge", n_edges_);
   grid.cell_spacing_m = spacing(grid);
+  if (file_.has_variable("delos_edge_spacing")) {
+    grid.edge_spacing_m = numbers("delos_edge_spacing", n_edges_);
+  }
 }
 
 std::vector<double> MpasTables::spacing(const Grid& grid) const {

@@ -156,6 +156,8 @@ class Writer {
   void attribute(VariableId variable, const std::string& name, double value);
   void attribute(VariableId variable, const std::string& name, std::int32_t value);
   void attribute(VariableId variable, const std::string& name, std::span<const double> values);
+  void attribute(VariableId variable, const std::string& name,
+                 std::span<const std::int32_t> values);
 
   /// Error(output) when the variables (but compressed ones) need more space than the disk has.
   void end_definitions();

@@ -143,10 +143,15 @@ void Writer::attribute(VariableId variable, const std::string& name, double valu
 }
 
 void Writer::attribute(VariableId variable, const std::string& name, std::int32_t value) {
+  attribute(variable, name, std::span<const std::int32_t>(&value, 1));
+}
+
+void Writer::attribute(VariableId variable, const std::string& name,
+                       std::span<const std::int32_t> values) {
   const bool typed = name == kFillName && variable.id >= 0;
   const nc_type code =
       typed ? code_of(variables_[static_cast<std::size_t>(variable.id)].type) : NC_INT;
-  check(nc_put_att_int(handle_, variable.id, name.c_str(), code, 1, &value),
+  check(nc_put_att_int(handle_, variable.id, name.c_str(), code, values.size(), values.data()),
         "attribute '" + name + "' can't be written" + name_of(variable));
 }
 

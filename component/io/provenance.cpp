@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/provenance.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <sstream>
@@ -36,14 +38,16 @@ std::string two_digits(std::int64_t value) {
   return std::string(value < 10 ? "0" : "") + std::to_string(value);
 }
 
-struct NamedNumber {
-  const char* name;
-  double FileCertificate::*value;
-};
-constexpr NamedNumber kCertificate[] = {
-    {"delos_well_centred", &FileCertificate::well_centred},
-    {"delos_min_relative_edge", &FileCertificate::min_relative_edge},
-    {"delos_min_dual_ratio", &FileCertificate::min_dual_ratio}};
+constexpr char kStatement[] = "delos_certificate";
+constexpr char kWellCentred[] = "delos_well_centred";
+constexpr char kObtuse[] = "delos_n_obtuse";
+constexpr char kAngle[] = "delos_angle_max_deg";
+constexpr char kDualRatio[] = "delos_dual_ratio_min";
+constexpr char kStagger[] = "delos_stagger_max";
+constexpr char kRelativeEdge[] = "delos_relative_edge_min";
+constexpr const char* kNumbers[] = {kWellCentred, kObtuse,  kAngle,
+                                    kDualRatio,   kStagger, kRelativeEdge};
+constexpr std::int32_t kIndexBase = 1;  // of every table in MPAS and in our UGRID
 
 struct NamedText {
   const char* name;
@@ -53,6 +57,87 @@ constexpr NamedText kTexts[] = {{"history", &Provenance::history},
                                 {"delos_version", &Provenance::version},
                                 {"delos_config", &Provenance::config},
                                 {"delos_digest", &Provenance::digest}};
+
+const char* ids_suffix(std::size_t n_ids) { return n_ids == 1 ? "_triangle" : "_cells"; }
+
+void write_extreme(netcdf::Writer& file, const std::string& name, const FileExtreme& extreme) {
+  DELOS_CHECK(std::isfinite(extreme.value) && std::isfinite(extreme.lon_lat_deg[0]) &&
+                  std::isfinite(extreme.lon_lat_deg[1]),
+              ErrorKind::internal, "attribute ", name, " of ", file.path(), " would be ",
+              extreme.value, ": a certificate holds finite numbers only.");
+  file.attribute(netcdf::kGlobal, name, extreme.value);
+  const std::size_t n_ids = extreme.ids[1] == kNone ? 1 : 2;
+  const std::array<std::int32_t, 2> ids = {extreme.ids[0] + kIndexBase,
+                                           extreme.ids[1] + kIndexBase};
+  file.attribute(netcdf::kGlobal, name + ids_suffix(n_ids), std::span(ids.data(), n_ids));
+  file.attribute(netcdf::kGlobal, name + "_lon_lat", std::span<const double>(extreme.lon_lat_deg));
+}
+
+void write_certificate(netcdf::Writer& file, const FileCertificate& certificate,
+                       const ElementNames& elements) {
+  file.attribute(
+      netcdf::kGlobal, kStatement,
+      text("ids count from ", kIndexBase, "; *_triangle along ", elements.triangle,
+           ", *_cells (the two cells of an edge) along ", elements.cell, "; *_lon_lat in degrees"));
+  file.attribute(netcdf::kGlobal, kWellCentred, certificate.well_centred);
+  file.attribute(netcdf::kGlobal, kObtuse, certificate.n_obtuse);
+  write_extreme(file, kAngle, certificate.angle_max_deg);
+  if (certificate.relative_edge_min) {
+    write_extreme(file, kRelativeEdge, *certificate.relative_edge_min);
+  }
+  write_extreme(file, kDualRatio, certificate.dual_ratio_min);
+  write_extreme(file, kStagger, certificate.stagger_max);
+}
+
+/// A global attribute of n finite numbers.
+std::vector<double> numbers(const netcdf::Reader& file, const std::string& name, std::size_t n) {
+  const auto values = file.number_attribute("", name);
+  const bool is_good = values && values->size() == n &&
+                       std::all_of(values->begin(), values->end(),
+                                   [](double value) { return std::isfinite(value); });
+  DELOS_CHECK(is_good, ErrorKind::input, file.path(), ": attribute ", name, " ",
+              values ? "is not" : "is missing; it must be", " ", n,
+              n == 1 ? " finite number" : " finite numbers",
+              ", as the rest of the certificate is there. The file was changed; make it anew.");
+  return *values;
+}
+
+FileExtreme read_extreme(const netcdf::Reader& file, const std::string& name, std::size_t n_ids) {
+  FileExtreme out;
+  out.value = numbers(file, name, 1).front();
+  const std::string ids_name = name + ids_suffix(n_ids);
+  const std::vector<double> ids = numbers(file, ids_name, n_ids);
+  for (std::size_t i = 0; i < n_ids; ++i) {
+    const double id = ids[i];
+    constexpr double kMost = 2147483647.0;
+    DELOS_CHECK(id >= kIndexBase && id <= kMost && id == std::floor(id), ErrorKind::input,
+                file.path(), ": attribute ", ids_name, " holds ", id,
+                ", which is no id from 1. The file was changed; make it anew.");
+    out.ids[i] = static_cast<Index>(id) - kIndexBase;
+  }
+  const std::vector<double> place = numbers(file, name + "_lon_lat", 2);
+  out.lon_lat_deg = {place[0], place[1]};
+  return out;
+}
+
+std::optional<FileCertificate> read_certificate(const netcdf::Reader& file) {
+  const bool has_any = file.text_attribute("", kStatement).has_value() ||
+                       std::any_of(std::begin(kNumbers), std::end(kNumbers), [&](const char* name) {
+                         return file.number_attribute("", name).has_value();
+                       });
+  if (!has_any) return std::nullopt;
+  FileCertificate out;
+  out.well_centred = numbers(file, kWellCentred, 1).front();
+  out.n_obtuse =
+      static_cast<std::int32_t>(std::clamp(numbers(file, kObtuse, 1).front(), -1.0, 2e9));
+  out.angle_max_deg = read_extreme(file, kAngle, 1);
+  out.dual_ratio_min = read_extreme(file, kDualRatio, 2);
+  out.stagger_max = read_extreme(file, kStagger, 2);
+  if (file.number_attribute("", kRelativeEdge)) {
+    out.relative_edge_min = read_extreme(file, kRelativeEdge, 2);
+  }
+  return out;
+}
 
 }  // namespace
 
@@ -102,7 +187,8 @@ std::string file_id(const std::string& digest) {
   return id;
 }
 
-void write_provenance(netcdf::Writer& file, const Provenance& provenance) {
+void write_provenance(netcdf::Writer& file, const Provenance& provenance,
+                      const ElementNames& elements) {
   for (const NamedText& item : kTexts) {
     const std::string& value = provenance.*item.value;
     if (!value.empty()) file.attribute(netcdf::kGlobal, item.name, value);
@@ -112,10 +198,7 @@ void write_provenance(netcdf::Writer& file, const Provenance& provenance) {
     inputs += (inputs.empty() ? "" : "\n") + input.sha256 + "  " + input.path;
   }
   if (!inputs.empty()) file.attribute(netcdf::kGlobal, "delos_inputs", inputs);
-  if (!provenance.certificate) return;
-  for (const NamedNumber& item : kCertificate) {
-    file.attribute(netcdf::kGlobal, item.name, (*provenance.certificate).*item.value);
-  }
+  if (provenance.certificate) write_certificate(file, *provenance.certificate, elements);
 }
 
 Provenance read_provenance(const netcdf::Reader& file) {
@@ -129,14 +212,7 @@ Provenance read_provenance(const netcdf::Reader& file) {
     if (line.size() < kHexDigits + 2) continue;
     provenance.inputs.push_back({line.substr(kHexDigits + 2), line.substr(0, kHexDigits)});
   }
-  FileCertificate certificate;
-  bool complete = true;
-  for (const NamedNumber& item : kCertificate) {
-    const auto value = file.number_attribute("", item.name);
-    complete = complete && value && value->size() == 1;
-    if (complete) certificate.*item.value = value->front();
-  }
-  if (complete) provenance.certificate = certificate;
+  provenance.certificate = read_certificate(file);
   return provenance;
 }
 

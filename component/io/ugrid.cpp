@@ -45,6 +45,11 @@ struct Topology {
   std::function<std::size_t(std::int64_t, std::span<Index>)> corners;
   /// Calls back with the two nodes of every edge.
   std::function<void(const std::function<void(Index, Index)>&)> for_each_edge;
+  /// The spacing at edges [first, first + nodes.size() / 2), whose nodes (from 0) are given in
+  /// pairs; null: not known.
+  std::function<std::vector<double>(std::size_t first, std::span<const Index> nodes)>
+      edge_spacing_m;
+  ElementNames elements;
 };
 
 class UgridFile {
@@ -73,7 +78,7 @@ class UgridFile {
   netcdf::Writer file_;
   DimensionId nodes_, faces_, edges_, corners_, two_;
   VariableId area_, crs_, node_lon_, node_lat_, face_lon_, face_lat_, lon_bounds_, lat_bounds_;
-  VariableId nodes_on_face_, nodes_on_edge_;
+  VariableId nodes_on_face_, nodes_on_edge_, edge_spacing_;
   std::vector<double> node_lon_deg_, node_lat_deg_;  // the corners' bounds come from here
 };
 
@@ -88,7 +93,7 @@ void UgridFile::define(const UgridSurface& surface, const Provenance& provenance
   define_topology();
   file_.attribute(netcdf::kGlobal, "Conventions", "CF-1.8 UGRID-1.0");
   file_.attribute(netcdf::kGlobal, "source", "delos " + provenance.version);
-  write_provenance(file_, provenance);
+  write_provenance(file_, provenance, topology_.elements);
   file_.end_definitions();
 }
 
@@ -159,6 +164,13 @@ void UgridFile::define_topology() {
   for (const VariableId id : {nodes_on_face_, nodes_on_edge_}) {
     file_.attribute(id, "start_index", kStartIndex);
     file_.attribute(id, "_FillValue", kFill);
+  }
+  if (topology_.edge_spacing_m) {
+    edge_spacing_ = file_.define_variable("delos_edge_spacing", Type::float64, {edges_});
+    file_.attribute(edge_spacing_, "long_name", "wanted edge length of the triangulation");
+    file_.attribute(edge_spacing_, "units", "m");
+    file_.attribute(edge_spacing_, "mesh", topology_.name);
+    file_.attribute(edge_spacing_, "location", "edge");
   }
   if (!bounds) return;
   lon_bounds_ =
@@ -251,13 +263,19 @@ void UgridFile::put_edges() {
   std::size_t written = 0;
   const auto flush = [&] {
     const std::array<std::size_t, 2> start = {written, 0}, count = {block.size() / 2, 2};
+    if (topology_.edge_spacing_m) {
+      const std::vector<double> spacing_m = topology_.edge_spacing_m(written, block);
+      file_.put_block(edge_spacing_, std::span(start.data(), 1), std::span(count.data(), 1),
+                      std::span<const double>(spacing_m));
+    }
+    for (std::int32_t& node : block) node += kStartIndex;
     file_.put_block(nodes_on_edge_, start, count, std::span<const std::int32_t>(block));
     written += block.size() / 2;
     block.clear();
   };
   topology_.for_each_edge([&](Index a, Index b) {
-    block.push_back(a + kStartIndex);
-    block.push_back(b + kStartIndex);
+    block.push_back(a);
+    block.push_back(b);
     if (block.size() == 2 * at(kBlockRows)) flush();
   });
   if (!block.empty()) flush();
@@ -271,7 +289,8 @@ std::uint64_t size_bytes(const Topology& topology, const UgridOptions& options) 
       3 * kReal + topology.max_corners * (kId + (options.bounds ? 2 * kReal : 0));
   return static_cast<std::uint64_t>(topology.n_nodes) * 2 * kReal +
          static_cast<std::uint64_t>(topology.n_faces) * face +
-         static_cast<std::uint64_t>(topology.n_edges) * 2 * kId;
+         static_cast<std::uint64_t>(topology.n_edges) *
+             (2 * kId + (topology.edge_spacing_m ? kReal : 0));
 }
 
 void write_topology(const std::string& path, const Topology& topology, const UgridSurface& surface,
@@ -294,6 +313,23 @@ void for_each_edge_of(const Mesh& mesh, const std::function<void(Index, Index)>&
       edge(triangle.vertex[at(next_corner(k))], triangle.vertex[at(previous_corner(k))]);
     }
   }
+}
+
+/// The field at the middles of the edges between these pairs of vertices, in metres.
+std::vector<double> spacing_at_middles(const Mesh& mesh, const UgridSurface& surface,
+                                       std::span<const Index> vertices) {
+  std::vector<Vertex> middles(vertices.size() / 2);
+  for (std::size_t i = 0; i < middles.size(); ++i) {
+    const Vec3 middle = surface.ellipsoid.project(mesh.position(vertices[2 * i]) +
+                                                  mesh.position(vertices[2 * i + 1]));
+    middles[i] = {middle.x(), middle.y(), middle.z(), 0.0};
+  }
+  surface.spacing->evaluate(middles);
+  std::vector<double> out(middles.size());
+  std::transform(middles.begin(), middles.end(), out.begin(), [&](const Vertex& middle) {
+    return middle.spacing * surface.ellipsoid.scale_m();
+  });
+  return out;
 }
 
 }  // namespace
@@ -327,6 +363,12 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Ugri
     return vertex.size();
   };
   topology.for_each_edge = [&](const auto& edge) { for_each_edge_of(mesh, edge); };
+  topology.elements = {topology.name + "_faces", topology.name + "_nodes"};
+  if (surface.spacing != nullptr) {
+    topology.edge_spacing_m = [&](std::size_t, std::span<const Index> nodes) {
+      return spacing_at_middles(mesh, surface, nodes);
+    };
+  }
   write_topology(path, topology, surface, provenance, options);
 }
 
@@ -352,6 +394,13 @@ void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenan
   topology.for_each_edge = [&](const auto& edge) {
     for (const auto& vertices : grid.vertices_on_edge) edge(vertices[0], vertices[1]);
   };
+  topology.elements = {topology.name + "_nodes", topology.name + "_faces"};
+  if (!grid.edge_spacing_m.empty()) {
+    topology.edge_spacing_m = [&](std::size_t first, std::span<const Index> nodes) {
+      const auto begin = grid.edge_spacing_m.begin() + static_cast<std::ptrdiff_t>(first);
+      return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(nodes.size() / 2));
+    };
+  }
   write_topology(path, topology, {grid.surface, grid.latitude}, provenance, options);
 }
 
@@ -360,6 +409,7 @@ std::uint64_t ugrid_triangles_size_bytes(std::int64_t n_vertices, const UgridOpt
   topology.n_nodes = n_vertices;
   topology.n_faces = 2 * n_vertices;
   topology.n_edges = 3 * n_vertices;
+  topology.edge_spacing_m = [](std::size_t, auto) { return std::vector<double>(); };
   return size_bytes(topology, options);
 }
 
@@ -381,7 +431,9 @@ void write_spacing(const std::string& path, const LatLonField& spacing_m,
     file.attribute(lon_id, "standard_name", "longitude");
     file.attribute(lon_id, "units", "degrees_east");
     file.attribute(netcdf::kGlobal, "Conventions", "CF-1.8");
-    write_provenance(file, provenance);
+    Provenance notes = provenance;
+    notes.certificate.reset();  // of a grid, which this file does not hold
+    write_provenance(file, notes, {});
     file.end_definitions();
     std::vector<double> degrees;
     degrees.reserve(static_cast<std::size_t>(spacing_m.n_rows()));

@@ -2,8 +2,10 @@
 #pragma once
 // UGRID 1.0 files that CDO and ESMF read too, on any ellipsoid, and the spacing on its lat-lon
 // table.
+#include <array>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "dual/grid.hpp"
 #include "io/netcdf.hpp"
@@ -19,10 +21,13 @@ struct UgridOptions {
   bool bounds = true;
 };
 
-/// What a UGRID file is told about the surface that its longitudes and latitudes are on.
+/// What a UGRID file is told about the surface that its longitudes and latitudes are on, and about
+/// the spacing that was asked for there: `delos_edge_spacing` in metres at the middle of each edge
+/// (of the triangulation), left out when the field is null.
 struct UgridSurface {
   Ellipsoid ellipsoid;
   LatitudeKind latitude = LatitudeKind::geodetic;
+  const SpacingField* spacing = nullptr;
 };
 
 /// The triangulation, topology `delos_triangles`: faces are triangles, nodes their corners, face
@@ -31,18 +36,22 @@ struct UgridSurface {
 void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const UgridSurface& surface,
                            const Provenance& provenance, const UgridOptions& options = {});
 
-/// The Voronoi cells, topology `delos_cells`: faces are cells, nodes their corners. Atomic.
+/// The Voronoi cells, topology `delos_cells`: faces are cells, nodes their corners; with
+/// `delos_edge_spacing` when the grid has edge_spacing_m. Atomic.
 void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenance& provenance,
                        const UgridOptions& options = {});
 
 /// A UGRID topology of dimension 2.
 struct UgridMesh {
-  std::string topology;                ///< name of the variable
-  std::vector<LonLat> node;            ///< radians, lon in (-pi, pi]
-  std::vector<LonLat> face_centre;     ///< the same; empty when the file has none
-  Ragged<Index> nodes_on_face;         ///< from 0, in the order of the file
-  std::vector<double> face_area_m2;    ///< empty when the file has none
-  std::optional<Ellipsoid> ellipsoid;  ///< when the file says so
+  std::string topology;              ///< name of the variable
+  std::vector<LonLat> node;          ///< radians, lon in (-pi, pi]
+  std::vector<LonLat> face_centre;   ///< the same; empty when the file has none
+  Ragged<Index> nodes_on_face;       ///< from 0, in the order of the file
+  std::vector<double> face_area_m2;  ///< empty when the file has none
+  /// Where the file has `delos_edge_spacing`: that, and the nodes of its edges; else empty.
+  std::vector<double> edge_spacing_m;
+  std::vector<std::array<Index, 2>> nodes_on_edge;  ///< from 0
+  std::optional<Ellipsoid> ellipsoid;               ///< when the file says so
   LatitudeKind latitude = LatitudeKind::geodetic;
 };
 
@@ -55,7 +64,7 @@ UgridMesh read_ugrid(const std::string& path);
 void write_spacing(const std::string& path, const LatLonField& spacing_m,
                    const Provenance& provenance, netcdf::Format format = netcdf::Format::cdf5);
 
-/// Bytes of the file that write_ugrid_triangles makes, within a few per cent.
+/// Bytes of the file that write_ugrid_triangles makes with the spacing, within a few per cent.
 std::uint64_t ugrid_triangles_size_bytes(std::int64_t n_vertices, const UgridOptions& options = {});
 
 }  // namespace delos

@@ -35,6 +35,7 @@ class TopologyReader {
   Ragged<Index> nodes_on_face(std::size_t n_nodes) const;
   void read_surface(UgridMesh& mesh) const;
   std::vector<double> face_areas(std::size_t n_faces) const;
+  void read_edge_spacing(UgridMesh& mesh) const;
   std::string required(const char* attribute) const {
     const auto value = file_.text_attribute(topology_, attribute);
     DELOS_CHECK(value, ErrorKind::input, file_.path(), ": the mesh topology '", topology_,
@@ -157,6 +158,28 @@ std::vector<double> TopologyReader::face_areas(std::size_t n_faces) const {
   return {};
 }
 
+// Only our own files have it, so the tables have the shape that we write.
+void TopologyReader::read_edge_spacing(UgridMesh& mesh) const {
+  const std::string nodes_name = required("edge_node_connectivity");
+  mesh.edge_spacing_m = file_.read_double("delos_edge_spacing");
+  const std::vector<std::int32_t> nodes = file_.read_int32(nodes_name);
+  const std::size_t n_edges = mesh.edge_spacing_m.size();
+  DELOS_CHECK(nodes.size() == 2 * n_edges, ErrorKind::input, file_.path(), ": variable '",
+              nodes_name, "' has ", nodes.size(), " values, expected two for each of the ", n_edges,
+              " of delos_edge_spacing. The file is damaged.");
+  const auto first = file_.number_attribute(nodes_name, "start_index");
+  const std::int64_t start = first ? static_cast<std::int64_t>(first->front()) : 0;
+  const auto n_nodes = static_cast<std::int64_t>(mesh.node.size());
+  mesh.nodes_on_edge.resize(n_edges);
+  for (std::size_t i = 0; i < nodes.size(); ++i) {
+    const std::int64_t node = nodes[i] - start;
+    DELOS_CHECK(node >= 0 && node < n_nodes, ErrorKind::input, file_.path(), ": variable '",
+                nodes_name, "' names node ", nodes[i], " in edge ", i / 2,
+                " (from 0), which is not there. The file is damaged.");
+    mesh.nodes_on_edge[i / 2][i % 2] = static_cast<Index>(node);
+  }
+}
+
 UgridMesh TopologyReader::read() const {
   UgridMesh mesh;
   mesh.topology = topology_;
@@ -167,6 +190,7 @@ UgridMesh TopologyReader::read() const {
   }
   mesh.face_area_m2 = face_areas(mesh.nodes_on_face.offsets.size() - 1);
   read_surface(mesh);
+  if (file_.has_variable("delos_edge_spacing")) read_edge_spacing(mesh);
   return mesh;
 }
 

@@ -19,9 +19,10 @@ namespace fs = std::filesystem;
 
 constexpr double kMaxCells = 7e8;  // two triangles a cell stay within 32-bit ids, with room
 // Peaks, bytes a cell, a tenth above what was measured: triangulation with its work space (174 at
-// 9.2 M cells), and what C-grid tables, weights and the writers add (960 at 0.66 M cells).
+// 9.2 M cells), and what C-grid tables, weights and the writers add (960 at 0.66 M cells, and 24
+// for the spacing at the edges).
 constexpr double kMeshBytes = 190.0;
-constexpr double kDualBytes = 1060.0;
+constexpr double kDualBytes = 1090.0;
 constexpr double kReportBytes = 1e6;
 constexpr double kGraphBytes = 50.0;  // a cell: six neighbours of up to eight digits
 

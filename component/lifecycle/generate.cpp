@@ -6,9 +6,12 @@
 #include "core/error.hpp"
 #include "dual/build.hpp"
 #include "lifecycle/baselines.hpp"
+#include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/estimate.hpp"
 #include "lifecycle/inputs.hpp"
+#include "lifecycle/require.hpp"
 #include "lifecycle/version.hpp"
+#include "metrics/certificate.hpp"
 #include "refine/refine.hpp"
 #include "relax/relax.hpp"
 #include "sizing/gradient_limit.hpp"
@@ -96,16 +99,12 @@ void build_dual(Context& context, Product& product) {
   const Phase phase(context.monitor, "dual", product.mesh.n_vertices());
   product.grid =
       build_grid(context, product.settings.surface, product.settings.latitude, product.mesh);
+  const Ellipsoid& surface = product.settings.surface;
+  product.grid->edge_spacing_m =
+      spacing_at_edges(context.exec, {surface, product.spacing, product.mesh.vertices},
+                       product.grid->cells_on_edge, [&](const Vec3&) { return surface.scale_m(); });
   product.report.sections.push_back({"dual", {{"digest", digest(*product.grid)}}});
 }
-
-std::string place(const Extreme& extreme) {
-  return text(extreme.value, " at ", extreme.other == kNone ? "element " : "edge of cell ",
-              extreme.id, " (lon ", extreme.where.lon_rad * kDegPerRad, ", lat ",
-              extreme.where.lat_rad * kDegPerRad, " deg)");
-}
-
-}  // namespace
 
 FileNotes file_notes(const Product& product, const std::string& command) {
   FileNotes notes;
@@ -114,45 +113,48 @@ FileNotes file_notes(const Product& product, const std::string& command) {
     notes.inputs.push_back({file.path, file.sha256});
   }
   notes.command = command;
-  notes.well_centred = product.report.quality.well_centred;
-  notes.min_relative_edge = product.report.quality.relative_edge_min.value;
-  notes.min_dual_ratio = product.report.quality.dual_ratio_min.value;
+  notes.certificate = certificate(product.report.quality);
   notes.report_text = report_text(product.report);
   notes.report_json = report_json(product.report);
   return notes;
 }
+
+/// Where the report of a grid that is not written went, as a sentence.
+std::string rejected_report(const Product& product, const std::string& directory) {
+  const OutputSettings& output = product.settings.output;
+  if (directory.empty() || !output.report) return " No grid was written.";
+  try {
+    const std::string path = write_rejected_report(output, file_notes(product, ""), directory);
+    return " No grid was written; its report is " + path + ".";
+  } catch (const Error& error) {
+    // What the user must know first is what the grid misses.
+    return text(" No grid was written, nor its report: ", error.what());
+  }
+}
+
+void judge(Context& context, Product& product, const std::string& directory) {
+  Report& report = product.report;
+  report.missed = missed_requirements(product.settings.require.bounds, report.quality);
+  if (report.missed.empty()) return;
+  const std::string missed = missed_message("the grid", product.settings, report.missed);
+  if (product.settings.require.keep) {
+    context.monitor.log(LogLevel::warning, missed);
+    return;
+  }
+  report.phases = context.monitor.phases();
+  throw Error(ErrorKind::quality, missed + rejected_report(product, directory));
+}
+
+}  // namespace
 
 OutputContent output_content(const Product& product, const std::string& command) {
   return {product.settings,
           product.mesh,
           product.grid ? &*product.grid : nullptr,
           product.spacing_table_m ? &*product.spacing_table_m : nullptr,
+          product.spacing,
           file_notes(product, command),
           {}};
-}
-
-void check_requirements(const RequireSettings& require, const Quality& quality) {
-  std::string missed;
-  if (require.well_centred && quality.n_obtuse > 0) {
-    missed += text(" well_centred: ", quality.n_obtuse, " triangles are obtuse, largest angle ",
-                   place(quality.angle_max_deg), ".");
-  }
-  if (require.max_angle_deg && quality.angle_max_deg.value > *require.max_angle_deg) {
-    missed +=
-        text(" max_angle ", *require.max_angle_deg, " deg: ", place(quality.angle_max_deg), ".");
-  }
-  if (require.min_relative_edge && quality.relative_edge_min.value < *require.min_relative_edge) {
-    missed += text(" min_relative_edge ", *require.min_relative_edge, ": ",
-                   place(quality.relative_edge_min), ".");
-  }
-  if (require.min_dual_ratio && quality.dual_ratio_min.value < *require.min_dual_ratio) {
-    missed +=
-        text(" min_dual_ratio ", *require.min_dual_ratio, ": ", place(quality.dual_ratio_min), ".");
-  }
-  DELOS_CHECK(missed.empty(), ErrorKind::quality,
-              "the grid misses what `require` asks for:", missed,
-              " Lower sizing.gradient_limit, raise relax.polish_rounds, or set "
-              "require.keep: true to have it all the same.");
 }
 
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope) {
@@ -174,18 +176,14 @@ Product generate(Context& context, const Settings& settings, const GenerateScope
 
   product.mesh = triangulate(context, settings, sized.field, report.sections);
   product.spacing_table_m = std::move(sized.table_m);
+  product.spacing = sized.field;
   report.digest = digest(product.mesh);
   {
     const Phase phase(context.monitor, "quality", product.mesh.n_vertices());
     report.quality =
         measure_quality(context, settings.surface, sized.field, product.mesh, settings.latitude);
   }
-  try {
-    check_requirements(settings.require, report.quality);
-  } catch (const Error& error) {
-    if (!settings.require.keep) throw;
-    context.monitor.log(LogLevel::warning, error.what());
-  }
+  judge(context, product, scope.directory);
   if (scope.with_dual) build_dual(context, product);
   report.phases = context.monitor.phases();
   return product;

@@ -19,6 +19,7 @@ struct Product {
   Settings settings;
   Mesh mesh;
   std::optional<Grid> grid;                    ///< the dual, when it was asked for
+  SpacingField spacing;                        ///< what the grid was asked to follow
   std::optional<LatLonField> spacing_table_m;  ///< when the settings write it
   std::shared_ptr<const Raster> elevation_m;   ///< when the recipe used it
   Report report;
@@ -32,14 +33,13 @@ struct GenerateScope {
 
 /// Phases: read, spacing, refine, relax, polish, quality, dual. The grid depends on the settings
 /// and the input files only, to the last bit. Error(resource) with the estimated count and memory
-/// before anything large is allocated; Error(quality) with the worst element's id and place when a
-/// requirement is not met and `require.keep` is off.
+/// before anything large is allocated; Error(quality) with every requirement that is missed, the
+/// value reached and the worst element's id and place, unless `require.keep` is on: then the log
+/// has it as a warning. On that error no grid is written, but, when scope.directory is given and
+/// settings.output.report is on, its report (write_rejected_report).
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
 
 /// What goes into the product's files; refers to the product. `command` is for their history.
 OutputContent output_content(const Product& product, const std::string& command);
-
-/// Error(quality) that lists every requirement that is missed, with the worst element.
-void check_requirements(const RequireSettings& require, const Quality& quality);
 
 }  // namespace delos

@@ -10,6 +10,7 @@
 #include "io/netcdf.hpp"
 #include "io/provenance.hpp"
 #include "io/ugrid.hpp"
+#include "lifecycle/edge_spacing.hpp"
 
 namespace delos {
 namespace {
@@ -28,6 +29,28 @@ bool is_ugrid(const netcdf::Reader& file) {
   });
 }
 
+Extreme recorded(const FileExtreme& extreme) {
+  const bool is_edge = extreme.ids[1] != kNone;
+  return {extreme.value,
+          is_edge ? std::min(extreme.ids[0], extreme.ids[1]) : extreme.ids[0],
+          is_edge ? std::max(extreme.ids[0], extreme.ids[1]) : kNone,
+          {extreme.lon_lat_deg[0] * kRadPerDeg, extreme.lon_lat_deg[1] * kRadPerDeg},
+          is_edge ? Element::edge : Element::triangle};
+}
+
+Certificate recorded(const FileCertificate& certificate) {
+  Certificate out;
+  out.well_centred = certificate.well_centred;
+  out.n_obtuse = certificate.n_obtuse;
+  out.angle_max_deg = recorded(certificate.angle_max_deg);
+  out.dual_ratio_min = recorded(certificate.dual_ratio_min);
+  out.stagger_max = recorded(certificate.stagger_max);
+  if (certificate.relative_edge_min) {
+    out.relative_edge_min = recorded(*certificate.relative_edge_min);
+  }
+  return out;
+}
+
 FileOrigin read_origin(const netcdf::Reader& file, const char* format) {
   const Provenance notes = read_provenance(file);
   FileOrigin out;
@@ -37,12 +60,7 @@ FileOrigin read_origin(const netcdf::Reader& file, const char* format) {
   out.digest = notes.digest;
   out.history = notes.history;
   for (const InputFile& input : notes.inputs) out.inputs.push_back({input.path, input.sha256});
-  out.has_certificate = notes.certificate.has_value();
-  if (out.has_certificate) {
-    out.well_centred = notes.certificate->well_centred;
-    out.min_relative_edge = notes.certificate->min_relative_edge;
-    out.min_dual_ratio = notes.certificate->min_dual_ratio;
-  }
+  if (notes.certificate) out.certificate = recorded(*notes.certificate);
   return out;
 }
 
@@ -50,6 +68,15 @@ void set_position(Vertex& vertex, const Vec3& p) {
   vertex.x = p.x();
   vertex.y = p.y();
   vertex.z = p.z();
+}
+
+void read_spacing(GridFile& out, const FileEdges& edges) {
+  if (edges.spacing_m.empty()) return;
+  try {
+    out.spacing = spacing_by_side(*out.mesh, edges, out.surface.scale_m());
+  } catch (const Error& error) {
+    throw Error(error.kind(), text(out.path, ": ", error.what()));
+  }
 }
 
 void read_mpas_into(GridFile& out) {
@@ -69,6 +96,7 @@ void read_mpas_into(GridFile& out) {
         grid.cell_spacing_m.empty() ? 0.0 : grid.cell_spacing_m[i] / grid.surface.scale_m();
   }
   out.mesh = mesh_from_triangles(std::move(vertices), grid.cells_on_vertex);
+  read_spacing(out, {grid.cells_on_edge, EdgeEnds::vertices, grid.edge_spacing_m});
 }
 
 /// Corners of triangular faces.
@@ -124,6 +152,7 @@ void read_ugrid_into(GridFile& out) {
   }
   if (all_triangles) {
     out.mesh = mesh_from_triangles(surface_points(out, ugrid.node), face_corners(ugrid));
+    read_spacing(out, {ugrid.nodes_on_edge, EdgeEnds::vertices, ugrid.edge_spacing_m});
     return;
   }
   DELOS_CHECK(ugrid.face_centre.size() == n_faces, ErrorKind::input, out.path,
@@ -133,7 +162,9 @@ void read_ugrid_into(GridFile& out) {
   const Corners corners = node_faces(out.path, ugrid, centres);
   const bool is_closed =
       std::none_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
-  if (is_closed) out.mesh = mesh_from_triangles(std::move(centres), corners);
+  if (!is_closed) return;
+  out.mesh = mesh_from_triangles(std::move(centres), corners);
+  read_spacing(out, {ugrid.nodes_on_edge, EdgeEnds::triangles, ugrid.edge_spacing_m});
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
 #include "lifecycle/inputs.hpp"
+#include "metrics/certificate.hpp"
 #include "triangulation/mesh.hpp"
 
 namespace delos {
@@ -17,8 +18,7 @@ struct FileOrigin {
   std::string format;  ///< "MPAS" or "UGRID"
   std::string version, config, digest, history;
   std::vector<InputRecord> inputs;
-  bool has_certificate = false;
-  double well_centred = 0.0, min_relative_edge = 0.0, min_dual_ratio = 0.0;
+  std::optional<Certificate> certificate;  ///< as recorded, not as measured
 };
 
 struct GridFile {
@@ -28,6 +28,8 @@ struct GridFile {
   LatitudeKind latitude = LatitudeKind::geodetic;
   /// The triangulation; none for a grid with a border, which is not a closed surface.
   std::optional<Mesh> mesh;
+  /// The spacing that was asked for at the mesh's sides; null where the file does not say.
+  SideSpacing spacing;
   /// The C-grid as the file has it (MPAS); none for UGRID, which holds no C-grid tables.
   std::optional<Grid> grid;
 };

@@ -13,6 +13,8 @@
 #include "io/mpas.hpp"
 #include "io/provenance.hpp"
 #include "io/ugrid.hpp"
+#include "lifecycle/edge_spacing.hpp"
+#include "lifecycle/require.hpp"
 #include "lifecycle/version.hpp"
 #include "triangulation/flip.hpp"
 
@@ -21,10 +23,34 @@ namespace {
 
 namespace fs = std::filesystem;
 
+constexpr char kRejectedJson[] = ".rejected.report.json";
+constexpr char kRejectedText[] = ".rejected.report.txt";
+
 std::int64_t now_s() {
   return std::chrono::duration_cast<std::chrono::seconds>(
              std::chrono::system_clock::now().time_since_epoch())
       .count();
+}
+
+FileExtreme file_extreme(const Extreme& extreme) {
+  FileExtreme out;
+  out.value = extreme.value;
+  out.ids = {extreme.id, extreme.other};
+  out.lon_lat_deg = {extreme.where.lon_rad * kDegPerRad, extreme.where.lat_rad * kDegPerRad};
+  return out;
+}
+
+FileCertificate file_certificate(const Certificate& certificate) {
+  FileCertificate out;
+  out.well_centred = certificate.well_centred;
+  out.n_obtuse = static_cast<std::int32_t>(certificate.n_obtuse);
+  out.angle_max_deg = file_extreme(certificate.angle_max_deg);
+  out.dual_ratio_min = file_extreme(certificate.dual_ratio_min);
+  out.stagger_max = file_extreme(certificate.stagger_max);
+  if (certificate.relative_edge_min) {
+    out.relative_edge_min = file_extreme(*certificate.relative_edge_min);
+  }
+  return out;
 }
 
 Provenance provenance_of(const OutputContent& content) {
@@ -35,8 +61,23 @@ Provenance provenance_of(const OutputContent& content) {
   out.digest = notes.digest;
   for (const InputRecord& file : notes.inputs) out.inputs.push_back({file.path, file.sha256});
   out.history = history_line(history_time(now_s()), notes.command);
-  out.certificate = {notes.well_centred, notes.min_relative_edge, notes.min_dual_ratio};
+  out.certificate = file_certificate(notes.certificate);
   return out;
+}
+
+/// The certificate of the grid as it was carried to a sphere, which is not that of the original.
+Certificate certify_carried(Context& context, const Settings& settings, const Mesh& mesh,
+                            const Grid& grid) {
+  const SideSpacing spacing = spacing_by_side(
+      mesh, {grid.cells_on_edge, EdgeEnds::vertices, grid.edge_spacing_m}, grid.surface.scale_m());
+  const Quality quality = measure_quality(context, grid.surface, spacing, mesh, grid.latitude);
+  const std::string missed =
+      missed_message("the grid on the sphere of equal area, which MPAS needs,", settings,
+                     missed_requirements(settings.require.bounds, quality));
+  DELOS_CHECK(missed.empty() || settings.require.keep, ErrorKind::quality, missed,
+              " Nothing was written.");
+  if (!missed.empty()) context.monitor.log(LogLevel::warning, missed);
+  return certificate(quality);
 }
 
 /// The grid on the sphere of equal area. The map keeps angles (or, on Earth, nearly), so that the
@@ -61,7 +102,12 @@ Grid carry_to_sphere(Context& context, const OutputContent& content, Provenance&
            map.kind() == SphereMapKind::conformal ? "angles" : "longitudes and latitudes",
            " kept; sides flipped: ", n_flips);
   context.monitor.check_cancelled();
-  return build_grid(context, sphere, LatitudeKind::geocentric, mesh);
+  Grid grid = build_grid(context, sphere, LatitudeKind::geocentric, mesh);
+  grid.edge_spacing_m = spacing_at_edges(
+      context.exec, {surface, content.spacing, content.mesh.vertices}, grid.cells_on_edge,
+      [&](const Vec3& p) { return map.stretch(p) * sphere.scale_m(); });
+  provenance.certificate = file_certificate(certify_carried(context, content.settings, mesh, grid));
+  return grid;
 }
 
 void write_mpas_file(Context& context, const OutputContent& content, const std::string& path) {
@@ -150,6 +196,11 @@ class OutputWriter {
   std::vector<std::string> commit() {
     context_.monitor.check_cancelled();
     files_.commit();
+    // What was said about an earlier grid of this name would be taken for this one.
+    std::error_code ignored;
+    for (const char* const kind : {kRejectedJson, kRejectedText}) {
+      fs::remove(directory_ / text(content_.settings.output.name, kind), ignored);
+    }
     return paths_;
   }
 
@@ -204,7 +255,8 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
       write_mpas_file(context, content, path);
       return;
     case FileKind::ugrid_triangles:
-      write_ugrid_triangles(path, content.mesh, {settings.surface, settings.latitude},
+      write_ugrid_triangles(path, content.mesh,
+                            {settings.surface, settings.latitude, &content.spacing},
                             provenance_of(content), ugrid_options(content));
       return;
     case FileKind::ugrid_cells:
@@ -212,6 +264,21 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
       write_ugrid_cells(path, *content.grid, provenance_of(content), ugrid_options(content));
       return;
   }
+}
+
+std::string write_rejected_report(const OutputSettings& output, const FileNotes& notes,
+                                  const std::string& directory) {
+  NewFolders folders(directory);
+  OutputSet files;
+  const fs::path json = fs::path(directory) / (output.name + kRejectedJson);
+  const fs::path screen = fs::path(directory) / (output.name + kRejectedText);
+  files.add(json, 0,
+            [&](const std::string& path) { write_text_atomically(path, notes.report_json); });
+  files.add(screen, 0,
+            [&](const std::string& path) { write_text_atomically(path, notes.report_text); });
+  files.commit();
+  folders.keep();
+  return screen.string();
 }
 
 }  // namespace delos

@@ -6,6 +6,7 @@
 
 #include "io/data_files.hpp"
 #include "lifecycle/baselines.hpp"
+#include "lifecycle/require.hpp"
 #include "lifecycle/settings_reader.hpp"
 #include "lifecycle/settings_sizing.hpp"
 
@@ -154,19 +155,6 @@ OutputSettings read_output(MapReader keys) {
   return out;
 }
 
-RequireSettings read_require(MapReader keys) {
-  RequireSettings out;
-  out.well_centred = keys.boolean("well_centred", false);
-  out.min_relative_edge =
-      keys.optional_quantity("min_relative_edge", Dimension::none, Bounds::between(0.0, 1.0));
-  out.min_dual_ratio =
-      keys.optional_quantity("min_dual_ratio", Dimension::none, Bounds::between(0.0, 1.0));
-  out.max_angle_deg =
-      keys.optional_quantity("max_angle", Dimension::angle, Bounds::between(60.0, 180.0));
-  out.keep = keys.boolean("keep", false);
-  return out;
-}
-
 /// What the grid does not depend on leaves no trace in its files, so that they stay the same.
 std::string grid_text(ConfigNode effective) {
   std::erase_if(effective.entries, [](const auto& entry) { return entry.first == "threads"; });
@@ -210,8 +198,7 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   out.output =
       read_output(root.map("output", {"directory", "name", "formats", "graph", "report", "spacing",
                                       "pictures", "view", "unit_sphere", "compress"}));
-  out.require = read_require(root.map(
-      "require", {"well_centred", "min_relative_edge", "min_dual_ratio", "max_angle", "keep"}));
+  out.require = read_require(root);
   constexpr std::int64_t kMaxThreads = 4096;
   out.threads = static_cast<int>(root.integer("threads", 0, kMaxThreads, "0"));
   out.data_path = root.strings("data_path", {}, {kDefaultDataFolder});

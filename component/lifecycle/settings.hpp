@@ -9,6 +9,7 @@
 #include "geometry/ellipsoid.hpp"
 #include "io/rasters.hpp"
 #include "lifecycle/settings_tree.hpp"
+#include "metrics/requirements.hpp"
 #include "refine/refine.hpp"
 #include "relax/relax.hpp"
 #include "sizing/sources.hpp"
@@ -63,8 +64,7 @@ struct OutputSettings {
 
 /// What the finished grid must meet. Nothing is required by default.
 struct RequireSettings {
-  bool well_centred = false;
-  std::optional<double> min_relative_edge, min_dual_ratio, max_angle_deg;
+  Requirements bounds;
   bool keep = false;  ///< write a grid that misses them all the same, with a warning
 };
 

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include <Eigen/Geometry>
+#include <cmath>
+#include <limits>
 
 #include "geometry/predicates.hpp"
 #include "metrics/passes.hpp"
@@ -76,21 +78,28 @@ void measure_dual_edge(const Subject& subject, const Workspace& work, const Side
   sums.grading_max.keep_higher({grading, left_smaller ? side.left : side.right});
 }
 
-void measure_edge(const Subject& subject, const Workspace& work, const Side& side, double spacing,
-                  EdgeSums& sums) {
-  const double length = (side.b - side.a).norm();
-  const double relative = spacing > 0.0 ? length / spacing : 1.0;
-  ++sums.n;
-  sums.length += length;
-  sums.length_min.keep_lower({length});
-  sums.length_max.keep_higher({length});
-  sums.spacing_min.keep_lower({std::max(0.0, spacing)});
-  sums.spacing_max.keep_higher({std::max(0.0, spacing)});
+void measure_relative_edge(const Side& side, double length, double spacing, EdgeSums& sums) {
+  // A spacing that is not > 0 must not pass for a small number: it spoils the sums, which are
+  // looked at afterwards.
+  const double relative =
+      spacing > 0.0 ? length / spacing : std::numeric_limits<double>::quiet_NaN();
+  sums.spacing_min.keep_lower({spacing});
+  sums.spacing_max.keep_higher({spacing});
   sums.excess += relative - 1.0;
   sums.square_excess += (relative - 1.0) * (relative - 1.0);
   sums.relative_min.keep_lower({relative, side.lower, side.higher});
   sums.relative_max.keep_higher({relative, side.lower, side.higher});
-  sums.relative_bins.add(relative);
+  if (std::isfinite(relative)) sums.relative_bins.add(relative);
+}
+
+void measure_edge(const Subject& subject, const Workspace& work, const Side& side, double spacing,
+                  EdgeSums& sums) {
+  const double length = (side.b - side.a).norm();
+  ++sums.n;
+  sums.length += length;
+  sums.length_min.keep_lower({length});
+  sums.length_max.keep_higher({length});
+  if (subject.knows_spacing()) measure_relative_edge(side, length, spacing, sums);
   sums.n_non_delaunay += breaks_delaunay(subject, work, side);
   measure_dual_edge(subject, work, side, sums);
 }
@@ -105,12 +114,12 @@ EdgeSums measure_edges_of(const Subject& subject, const Workspace& work, std::in
       if (subject.mesh.triangle(tri).neighbour[at(k)] <= tri) continue;
       sides.push_back(side_of(subject, tri, k));
       const Side& side = sides.back();
-      const double mean = 0.5 * (subject.mesh.vertices[at(side.lower)].spacing +
-                                 subject.mesh.vertices[at(side.higher)].spacing);
-      places.push_back({side.middle.x(), side.middle.y(), side.middle.z(), mean});
+      const bool is_given = subject.field == nullptr && subject.knows_spacing();
+      const double spacing = is_given ? (*subject.side_spacing)(tri, k) : 0.0;
+      places.push_back({side.middle.x(), side.middle.y(), side.middle.z(), spacing});
     }
   }
-  if (subject.spacing != nullptr) subject.spacing->evaluate(places);
+  if (subject.field != nullptr) subject.field->evaluate(places);
   EdgeSums sums;
   for (std::size_t i = 0; i < sides.size(); ++i) {
     measure_edge(subject, work, sides[i], places[i].spacing, sums);

@@ -4,6 +4,7 @@
 #include "core/parallel.hpp"
 #include "geometry/ellipsoid.hpp"
 #include "metrics/accumulate.hpp"
+#include "metrics/quality.hpp"
 #include "sizing/spacing.hpp"
 #include "triangulation/mesh.hpp"
 
@@ -17,8 +18,13 @@ inline constexpr double kUnbounded = 1e6;
 /// What is measured.
 struct Subject {
   const Ellipsoid& surface;
-  const SpacingField* spacing;  ///< null: the mean of Vertex::spacing at the ends of an edge
   const Mesh& mesh;
+  const SpacingField* field = nullptr;  ///< one of the two, or none: not known
+  const SideSpacing* side_spacing = nullptr;
+
+  bool knows_spacing() const {
+    return field != nullptr || (side_spacing != nullptr && *side_spacing != nullptr);
+  }
 };
 
 /// What the edges and the cells need of every triangle.
@@ -36,7 +42,7 @@ struct TriangleSums {
   Best area_length_min = Best::lowest(), angle_min = Best::lowest();
   Best angle_max = Best::highest(), radius_edge_max = Best::highest();
   double area_length = 0.0, deviation_deg = 0.0, radius_edge = 0.0;
-  std::int64_t n_acute = 0, n_degenerate = 0;
+  std::int64_t n_acute = 0, n_right = 0, n_degenerate = 0;
   Bins<100> area_length_bins{0.5, 1.0};
   Bins<180> angle_bins{0.0, 180.0};
 
@@ -57,6 +63,7 @@ struct TriangleSums {
     deviation_deg += more.deviation_deg;
     radius_edge += more.radius_edge;
     n_acute += more.n_acute;
+    n_right += more.n_right;
     n_degenerate += more.n_degenerate;
     area_length_bins.merge(more.area_length_bins);
     angle_bins.merge(more.angle_bins);

@@ -4,6 +4,7 @@
 // Angles, areas and radii of triangles are those of the flat (chordal) triangles; lengths are
 // chords; positions of dual vertices are the centres of the surface Delaunay balls.
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 #include "core/progress.hpp"
@@ -13,14 +14,22 @@
 
 namespace delos {
 
-/// The worst element of one measure, and where it is. For an edge, id is the lower vertex and
-/// other the higher one; for a vertex or a triangle, other is kNone.
+/// What a measure is of: a cell (vertex of the triangulation), an edge, a triangle.
+enum class Element { cell, edge, triangle };
+
+/// The worst element of one measure, and where it is: a cell itself, the projected middle of an
+/// edge or of the corners of a triangle. An edge is named by its two cells, the lower first; for
+/// the others, `other` is kNone. Ids from 0.
 struct Extreme {
   double value = 0.0;
   Index id = kNone;
   Index other = kNone;
   LonLat where{0.0, 0.0};
+  Element element = Element::cell;
 };
+
+/// The wanted spacing (scaled) at the projected middle of side k of a triangle.
+using SideSpacing = std::function<double(Index tri, int k)>;
 
 /// counts[i] = values in [lower + i w, lower + (i + 1) w), w = (upper - lower) / counts.size(); the
 /// first and the last bin also take what lies outside.
@@ -35,6 +44,7 @@ struct Quality {
   std::int64_t euler = 0;           ///< n_vertices - n_edges + n_triangles, 2 when right
   std::int64_t n_non_delaunay = 0;  ///< sides that the surface Delaunay would flip
   std::int64_t n_degenerate = 0;    ///< triangles of zero area or folded over; 0 when right
+  bool knows_spacing = false;       ///< else relative_edge_* and spacing_* mean nothing
 
   // --- triangles
   Extreme area_length_min;  ///< (4 sqrt(3) / 3) area / mean squared edge; ideal 1
@@ -43,8 +53,9 @@ struct Quality {
   double angle_mad_deg = 0.0;  ///< mean |angle - 60|
   Extreme radius_edge_max;     ///< circumradius / shortest edge; ideal 0.577
   double radius_edge_mean = 0.0;
-  double well_centred = 0.0;  ///< fraction of triangles that are acute
+  double well_centred = 0.0;  ///< fraction of triangles that are acute and face outward
   std::int64_t n_obtuse = 0;  ///< the others (largest angle >= 90 degrees)
+  std::int64_t n_right = 0;   ///< largest angle within some 1e-7 degrees of 90: rounding decides
   Extreme grading_max;        ///< area ratio of neighbours; where = the smaller triangle
 
   // --- edges
@@ -72,26 +83,15 @@ struct Quality {
   Histogram degree;         ///< [0, 16], one bin a degree
 };
 
-/// What a C-grid model needs to know before it trusts the grid.
-struct Certificate {
-  bool well_centred = false;  ///< every triangle acute, every dual edge crosses its edge
-  std::int64_t n_obtuse = 0;
-  Extreme max_angle_deg;
-  Extreme min_relative_edge;
-  Extreme min_dual_ratio;
-};
-
 /// Measures a closed mesh of at least four vertices. Never NaN: a degenerate triangle counts in
-/// n_degenerate, has quality 0 and an angle of 180 degrees. Exact percentiles; the same bits for
-/// any number of threads. Latitudes of places are of the given kind.
+/// n_degenerate, has quality 0 and an angle of 180 degrees; Error(internal) when the mesh has no
+/// triangles, a vertex is no point of the surface, or a spacing is not > 0. Exact percentiles; the
+/// same bits for any number of threads. Latitudes of places are of the given kind.
 Quality measure_quality(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
                         const Mesh& mesh, LatitudeKind latitude = LatitudeKind::geodetic);
 
-/// The same where no field is at hand (a grid read from a file): the spacing of an edge is the mean
-/// of Vertex::spacing at its ends; without it (<= 0) the edge counts as ideal, 1.
-Quality measure_quality(Context& context, const Ellipsoid& surface, const Mesh& mesh,
-                        LatitudeKind latitude = LatitudeKind::geodetic);
-
-Certificate certificate(const Quality& quality);
+/// The same where no field is at hand (a grid read from a file). Null: the spacing is not known.
+Quality measure_quality(Context& context, const Ellipsoid& surface, const SideSpacing& spacing,
+                        const Mesh& mesh, LatitudeKind latitude = LatitudeKind::geodetic);
 
 }  // namespace delos

@@ -5,10 +5,15 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "metrics/certificate.hpp"
+
 namespace delos {
 namespace {
 
 using Json = nlohmann::ordered_json;
+
+// Ids in reports count as those in the files that go with them.
+constexpr std::int64_t kIndexBase = 1;
 
 // ------------------------------------------------------------------ JSON
 
@@ -22,10 +27,11 @@ Json number(const std::string& key, double value) {
 Json place(const std::string& key, const Extreme& extreme) {
   Json out;
   out["value"] = number(key, extreme.value);
-  if (extreme.other == kNone) {
-    out["id"] = extreme.id;
+  const std::int64_t id = extreme.id + kIndexBase;
+  if (extreme.element == Element::edge) {
+    out["cells"] = {id, extreme.other + kIndexBase};
   } else {
-    out["vertices"] = {extreme.id, extreme.other};
+    out[extreme.element == Element::triangle ? "triangle" : "cell"] = id;
   }
   out["lon_deg"] = number(key, extreme.where.lon_rad * kDegPerRad);
   out["lat_deg"] = number(key, extreme.where.lat_rad * kDegPerRad);
@@ -66,9 +72,6 @@ Json counts_json(const Report& report) {
   return out.json;
 }
 
-// Files need not say which spacing was asked for.
-bool knows_spacing(const Quality& q) { return q.spacing_max_m > 0.0; }
-
 Json quality_json(const Quality& q) {
   Object out;
   out.add("area_length_min", q.area_length_min).add("area_length_p01", q.area_length_p01);
@@ -76,7 +79,7 @@ Json quality_json(const Quality& q) {
   out.add("angle_min_deg", q.angle_min_deg).add("angle_max_deg", q.angle_max_deg);
   out.add("angle_mad_deg", q.angle_mad_deg);
   out.add("radius_edge_max", q.radius_edge_max).add("radius_edge_mean", q.radius_edge_mean);
-  if (knows_spacing(q)) {
+  if (q.knows_spacing) {
     out.add("relative_edge_mean", q.relative_edge_mean);
     out.add("relative_edge_std", q.relative_edge_std);
     out.add("relative_edge_min", q.relative_edge_min).add("relative_edge_max", q.relative_edge_max);
@@ -95,7 +98,9 @@ Json quality_json(const Quality& q) {
 
 Json sizes_json(const Quality& q) {
   Object out;
-  out.add("spacing_min_m", q.spacing_min_m).add("spacing_max_m", q.spacing_max_m);
+  if (q.knows_spacing) {
+    out.add("spacing_min_m", q.spacing_min_m).add("spacing_max_m", q.spacing_max_m);
+  }
   out.add("edge_length_min_m", q.edge_length_min_m);
   out.add("edge_length_mean_m", q.edge_length_mean_m);
   out.add("edge_length_max_m", q.edge_length_max_m);
@@ -106,11 +111,17 @@ Json sizes_json(const Quality& q) {
 
 Json certificate_json(const Certificate& c) {
   Json out;
-  out["well_centred"] = c.well_centred;
+  out["well_centred"] = c.is_well_centred();
+  out["well_centred_fraction"] = number("well_centred_fraction", c.well_centred);
   out["n_obtuse"] = c.n_obtuse;
-  out["max_angle_deg"] = place("max_angle_deg", c.max_angle_deg);
-  out["min_relative_edge"] = place("min_relative_edge", c.min_relative_edge);
-  out["min_dual_ratio"] = place("min_dual_ratio", c.min_dual_ratio);
+  out["angle_max_deg"] = place("angle_max_deg", c.angle_max_deg);
+  if (c.relative_edge_min) {
+    out["spacing_kept"] = c.keeps_spacing();
+    out["relative_edge_bound"] = kRelativeEdgeBound;
+    out["relative_edge_min"] = place("relative_edge_min", *c.relative_edge_min);
+  }
+  out["dual_ratio_min"] = place("dual_ratio_min", c.dual_ratio_min);
+  out["stagger_max"] = place("stagger_max", c.stagger_max);
   return out;
 }
 
@@ -195,29 +206,37 @@ void add_sizes(const Report& report, std::vector<std::string>& lines) {
   lines.push_back("also        " + grouped(q.n_edges) + " edges, " + grouped(q.n_triangles) +
                   " triangles");
   lines.push_back("spacing     wanted " +
-                  (knows_spacing(q) ? length(q.spacing_min_m) + " to " + length(q.spacing_max_m)
-                                    : std::string("unknown")) +
+                  (q.knows_spacing ? length(q.spacing_min_m) + " to " + length(q.spacing_max_m)
+                                   : std::string("unknown")) +
                   "; edges " + length(q.edge_length_min_m) + " to " + length(q.edge_length_max_m));
   lines.push_back(line("area        sums to the surface within %.1e; cells %.4g to %.4g km2",
                        q.total_area_error, q.cell_area_min_m2.value * 1e-6,
                        q.cell_area_max_m2.value * 1e-6));
 }
 
+// "12.345W 67.890N 17" for a triangle, "12.345W 67.890N 17-39" for the edge of two cells.
+std::string element_text(const Extreme& worst) {
+  std::string out = text(place_text(worst.where), " ", worst.id + kIndexBase);
+  if (worst.element == Element::edge) out += text("-", worst.other + kIndexBase);
+  return out;
+}
+
 void add_quality(const Quality& q, std::vector<std::string>& lines) {
-  lines.push_back("quality           worst     mean    ideal   place of the worst");
+  lines.push_back(
+      "quality          worst    mean   ideal  place; triangle or cells of edge, from 1");
   const auto row = [&](const char* name, const Extreme& worst, double mean, const char* ideal) {
-    lines.push_back(line("  %-12s %8.4f %8.4f %8s   %s", name, worst.value, mean, ideal,
-                         place_text(worst.where).c_str()));
+    lines.push_back(line("  %-11s %8.4f %7.4f %7s  %s", name, worst.value, mean, ideal,
+                         element_text(worst).c_str()));
   };
   const auto single = [&](const char* name, const Extreme& worst, const char* ideal) {
-    lines.push_back(line("  %-12s %8.4f %8s %8s   %s", name, worst.value, "", ideal,
-                         place_text(worst.where).c_str()));
+    lines.push_back(line("  %-11s %8.4f %7s %7s  %s", name, worst.value, "", ideal,
+                         element_text(worst).c_str()));
   };
   row("area-length", q.area_length_min, q.area_length_mean, "1");
   single("angle min", q.angle_min_deg, "60");
   single("angle max", q.angle_max_deg, "60");
   row("radius-edge", q.radius_edge_max, q.radius_edge_mean, "0.577");
-  if (knows_spacing(q)) {
+  if (q.knows_spacing) {
     row("edge/h min", q.relative_edge_min, q.relative_edge_mean, "1");
     row("edge/h max", q.relative_edge_max, q.relative_edge_mean, "1");
   }
@@ -230,18 +249,23 @@ void add_quality(const Quality& q, std::vector<std::string>& lines) {
 
 void add_verdict(const Report& report, std::vector<std::string>& lines) {
   const Quality& q = report.quality;
-  const Certificate c = certificate(q);
   const bool is_sound = q.euler == 2 && q.n_degenerate == 0;
   lines.push_back(is_sound ? line("structure   closed and whole; %lld non-Delaunay sides",
                                   static_cast<long long>(q.n_non_delaunay))
                            : line("structure   BROKEN: Euler %lld, %lld degenerate triangles",
                                   static_cast<long long>(q.euler),
                                   static_cast<long long>(q.n_degenerate)));
-  lines.push_back(
-      c.well_centred
-          ? line("certificate well centred: every angle below %.2f degrees", c.max_angle_deg.value)
-          : line("certificate NOT well centred: %lld obtuse triangles, worst at %s",
-                 static_cast<long long>(c.n_obtuse), place_text(c.max_angle_deg.where).c_str()));
+  const char* head = "certificate ";
+  for (const std::string& verdict : certificate_text(certificate(q))) {
+    lines.push_back(head + verdict);
+    head = "            ";
+  }
+  if (report.missed.empty()) return;
+  std::string missed = "required    but missed:";
+  for (const std::string& sentence : report.missed) {
+    missed += " " + sentence.substr(0, sentence.find(':'));
+  }
+  lines.push_back(missed.substr(0, kColumns));
 }
 
 void add_times(const std::vector<PhaseTime>& phases, std::vector<std::string>& lines) {
@@ -270,10 +294,12 @@ std::string report_json(const Report& report) {
   out["delos_version"] = report.version;
   out["digest"] = report.digest;
   out["radii_m"] = {radii_m.x(), radii_m.y(), radii_m.z()};
+  out["index_base"] = kIndexBase;
   out["counts"] = counts_json(report);
   out["sizes"] = sizes_json(report.quality);
   out["quality"] = quality_json(report.quality);
   out["certificate"] = certificate_json(certificate(report.quality));
+  out["requirements_missed"] = report.missed;
   for (const ReportSection& section : report.sections) out[section.name] = section_json(section);
   out["inputs"] = Json::array();
   for (const ReportInput& input : report.inputs) {

@@ -36,10 +36,12 @@ struct Report {
   std::string digest;  ///< of the grid
   std::vector<ReportSection> sections;
   std::vector<ReportInput> inputs;
+  std::vector<std::string> missed;  ///< what was required and is not met: missed_requirements()
 };
 
-/// JSON, two spaces, keys in a fixed order, numbers that read back to the same double. Everything
-/// but "threads" and "phases" depends on the grid alone. Error(internal) naming the key when a
+/// JSON, two spaces, keys in a fixed order, numbers that read back to the same double. Ids of the
+/// worst elements count from 1 ("index_base"), as in the files; an edge is the pair of its cells.
+/// All but "threads" and "phases" depends on the grid alone. Error(internal) naming the key when a
 /// number is not finite.
 std::string report_json(const Report& report);
 

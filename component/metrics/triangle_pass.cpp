@@ -8,6 +8,10 @@
 namespace delos::metrics {
 namespace {
 
+// Cosines below this are of angles that rounding makes right, acute or obtuse: the circumcentre
+// is on the side to 1e-9 of its length.
+constexpr double kRightCosine = 1e-9;
+
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vec3 ball_centre(const Ellipsoid& surface, const Vec3& a, const Vec3& b, const Vec3& c) {
@@ -36,7 +40,8 @@ void measure_triangle(const Subject& subject, Index tri, Workspace& work, Triang
     sums.add_angles({0.0, 0.0, 180.0}, tri);
     return;
   }
-  if (!(normal.dot(a) > 0.0)) ++sums.n_degenerate;
+  const bool faces_outward = normal.dot(a) > 0.0;
+  sums.n_degenerate += !faces_outward;
   const double area_length =
       2.0 * std::sqrt(3.0) * twice_area / (square[0] + square[1] + square[2]);
   const double shortest = *std::min_element(square.begin(), square.end());
@@ -50,11 +55,14 @@ void measure_triangle(const Subject& subject, Index tri, Workspace& work, Triang
   sums.radius_edge += radius_edge;
   sums.radius_edge_max.keep_higher({radius_edge, tri});
 
+  // Times the lengths of the two sides.
   const std::array<double, 3> cosine{-ab.dot(ca), -bc.dot(ab), -ca.dot(bc)};
   const double first = elementary::atan2(twice_area, cosine[0]) * kDegPerRad;
   const double second = elementary::atan2(twice_area, cosine[1]) * kDegPerRad;
   sums.add_angles({first, second, std::max(0.0, 180.0 - first - second)}, tri);
-  sums.n_acute += cosine[0] > 0.0 && cosine[1] > 0.0 && cosine[2] > 0.0;
+  const double smallest = *std::min_element(cosine.begin(), cosine.end());
+  sums.n_acute += faces_outward && smallest > 0.0;
+  sums.n_right += std::abs(smallest) <= kRightCosine * std::max({square[0], square[1], square[2]});
 }
 
 }  // namespace

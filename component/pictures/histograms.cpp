@@ -169,6 +169,10 @@ std::vector<Panel> panels(const Quality& quality) {
          kExtreme}},
        0.8,
        1.2});
+  if (!quality.knows_spacing) {
+    all.back().title += ": spacing not known";
+    all.back().marks.clear();
+  }
   all.push_back({"Neighbours of a cell", "", &quality.degree, {}, 4.0, 9.0, true});
   crop(all[0], 0.02);
   crop(all[1], 3.0);

@@ -7,6 +7,7 @@
 #include "grid_access.hpp"
 #include "io/atomic_file.hpp"
 #include "lifecycle/outputs.hpp"
+#include "metrics/certificate.hpp"
 #include "translate.hpp"
 
 namespace delos::api {
@@ -38,6 +39,39 @@ Quality summary(const delos::Quality& quality) {
           .degree_6_fraction = quality.degree_6};
 }
 
+/// The edge between two neighbouring cells.
+std::int64_t edge_between(const delos::Grid& grid, Index a, Index b) {
+  const auto edges = grid.edges_on_cell.row(a);
+  const auto neighbours = grid.cells_on_cell.row(a);
+  const auto found = std::find(neighbours.begin(), neighbours.end(), b);
+  DELOS_ASSERT(found != neighbours.end());
+  return edges[static_cast<std::size_t>(found - neighbours.begin())];
+}
+
+Worst worst(const delos::Grid& grid, const Extreme& extreme) {
+  const bool is_edge = extreme.element == Element::edge;
+  const double lon_rad = extreme.where.lon_rad;
+  return {extreme.value,
+          is_edge ? edge_between(grid, extreme.id, extreme.other) : extreme.id,
+          {is_edge ? extreme.id : kNone, is_edge ? extreme.other : kNone},
+          lon_rad < 0.0 ? lon_rad + 2.0 * kPi : lon_rad,
+          extreme.where.lat_rad};
+}
+
+Certificate public_certificate(const Product& product) {
+  const delos::Certificate own = delos::certificate(product.report.quality);
+  const auto at = [&](const Extreme& extreme) { return worst(*product.grid, extreme); };
+  return {.well_centred = own.is_well_centred(),
+          .well_centred_fraction = own.well_centred,
+          .n_obtuse = own.n_obtuse,
+          .spacing_kept = own.keeps_spacing(),
+          .relative_edge_bound = kRelativeEdgeBound,
+          .relative_edge_min = at(*own.relative_edge_min),
+          .dual_ratio_min = at(own.dual_ratio_min),
+          .stagger_max = at(own.stagger_max),
+          .angle_max_deg = at(own.angle_max_deg)};
+}
+
 std::array<double, 3> as_array(const Vec3& v) { return {v.x(), v.y(), v.z()}; }
 
 /// Runs `write` with threads of its own; nothing listens.
@@ -66,6 +100,7 @@ Grid GridAccess::make(Product product) {
     impl->max_edges = std::max(impl->max_edges, offsets[i] - offsets[i - 1]);
   }
   impl->quality = summary(product.report.quality);
+  impl->certificate = public_certificate(product);
   impl->report = report_text(product.report);
   impl->report_json = report_json(product.report);
   impl->product = std::move(product);
@@ -86,6 +121,7 @@ std::int64_t Grid::max_edges() const { return impl_->max_edges; }
 std::int64_t Grid::generation() const { return impl_->generation; }
 const std::string& Grid::digest() const { return impl_->product.report.digest; }
 const Quality& Grid::quality() const { return impl_->quality; }
+const Certificate& Grid::certificate() const { return impl_->certificate; }
 const std::string& Grid::config_text() const { return impl_->product.settings.text; }
 const std::string& Grid::report() const { return impl_->report; }
 const std::string& Grid::report_json() const { return impl_->report_json; }
@@ -117,6 +153,7 @@ DELOS_FLAT(std::int32_t, edges_on_edge, edges_on_edge.values)
 DELOS_FLAT(double, weights_on_edge, weights_on_edge.values)
 DELOS_FLAT(double, cell_area_m2, cell_area_m2)
 DELOS_FLAT(double, cell_spacing_m, cell_spacing_m)
+DELOS_FLAT(double, edge_spacing_m, edge_spacing_m)
 DELOS_FLAT(double, triangle_area_m2, triangle_area_m2)
 DELOS_FLAT(double, kite_area_m2, kite_area_m2)
 DELOS_FLAT(double, cell_distance_m, cell_distance_m)

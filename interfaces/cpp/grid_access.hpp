@@ -13,6 +13,7 @@ struct Grid::Impl {
   std::int64_t generation = 1;
   std::int64_t max_edges = 0;
   Quality quality{};
+  Certificate certificate{};
   std::string report, report_json;
 };
 

@@ -6,9 +6,13 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/estimate.hpp"
 #include "lifecycle/grid_file.hpp"
 #include "lifecycle/settings_tree.hpp"
+#include "metrics/certificate.hpp"
+#include "support/expect_error.hpp"
+#include "support/sample_meshes.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace delos;
@@ -36,6 +40,25 @@ std::string yaml_of(const std::string& surface, const std::string& more = "") {
 }
 
 constexpr char kTriaxial[] = "{shape: ellipsoid, radii: [7645.464 km, 6371.22 km, 5096.976 km]}";
+
+void check_same(const Extreme& a, const Extreme& b) {
+  CHECK(a.value == b.value);
+  CHECK(a.id == b.id);
+  CHECK(a.other == b.other);
+  CHECK(a.element == b.element);
+  CHECK(a.where.lon_rad == doctest::Approx(b.where.lon_rad).epsilon(1e-14));
+  CHECK(a.where.lat_rad == doctest::Approx(b.where.lat_rad).epsilon(1e-14));
+}
+
+void check_same(const Certificate& a, const Certificate& b) {
+  CHECK(a.well_centred == b.well_centred);
+  CHECK(a.n_obtuse == b.n_obtuse);
+  check_same(a.angle_max_deg, b.angle_max_deg);
+  check_same(a.dual_ratio_min, b.dual_ratio_min);
+  check_same(a.stagger_max, b.stagger_max);
+  REQUIRE(a.relative_edge_min);
+  check_same(*a.relative_edge_min, *b.relative_edge_min);
+}
 
 ErrorKind kind_of_error(const std::string& yaml, const std::string& directory = "") {
   Run run;
@@ -86,8 +109,16 @@ TEST_CASE("all files of a run are read back with the digest and certificate of t
       const GridFile file = read_grid_file(run.context, path);
       CHECK(file.origin.digest == product.report.digest);
       CHECK(file.origin.config == settings.text);
-      CHECK(file.origin.has_certificate);
       REQUIRE(file.mesh.has_value());
+      REQUIRE(file.origin.certificate);
+      const bool is_carried = file.origin.format == "MPAS" && !settings.surface.is_sphere();
+      if (!is_carried) check_same(*file.origin.certificate, certificate(product.report.quality));
+      const Quality measured =
+          measure_quality(run.context, file.surface, file.spacing, *file.mesh, file.latitude);
+      const auto defects =
+          certificate_defects(run.context, {file.surface, file.spacing, *file.mesh, file.latitude},
+                              measured, *file.origin.certificate);
+      CHECK_MESSAGE(defects.empty(), (defects.empty() ? std::string() : defects.front()));
       CHECK(file.mesh->n_vertices() == product.mesh.n_vertices());
       CHECK(file.mesh->n_triangles() == product.mesh.n_triangles());
     }
@@ -128,12 +159,104 @@ TEST_CASE("an output folder that can't be is refused before the computation") {
 TEST_CASE("requirements that are missed are an error that names the worst element") {
   const std::string cubed = "generator: cubed_sphere\nsubdivisions: 83\n";
   CHECK(kind_of_error(cubed + "require: {well_centred: true}\n") == ErrorKind::quality);
-  CHECK(kind_of_error(cubed + "require: {max_angle: 61 deg}\n") == ErrorKind::quality);
-  CHECK(kind_of_error(cubed + "require: {min_relative_edge: 1}\n") == ErrorKind::quality);
-  CHECK(kind_of_error(cubed + "require: {min_dual_ratio: 0.9}\n") == ErrorKind::quality);
+  CHECK(kind_of_error(cubed + "require: {angle_max: 61 deg}\n") == ErrorKind::quality);
+  CHECK(kind_of_error(cubed + "require: {relative_edge_min: 1}\n") == ErrorKind::quality);
+  CHECK(kind_of_error(cubed + "require: {dual_ratio_min: 0.57}\n") == ErrorKind::quality);
+  CHECK(kind_of_error(cubed + "require: {degree_6_min: 0.9999}\n") == ErrorKind::quality);
   Run run;
   CHECK_NOTHROW(static_cast<void>(generate(
       run.context, settings_of(cubed + "require: {well_centred: true, keep: true}\n"), {})));
+}
+
+TEST_CASE("a grid that misses a requirement leaves its report, which a good grid removes") {
+  const testing::TemporaryFolder folder;
+  const std::string directory = folder.file("new/deep");
+  const std::string relaxed = yaml_of("{shape: sphere}", "require: {well_centred: true}\n");
+  const std::string bad = relaxed + "relax: {spring_rounds: 0, polish_rounds: 0}\n";
+  const auto n_files = [&] { return std::distance(fs::directory_iterator(directory), {}); };
+  CHECK(kind_of_error(bad) == ErrorKind::quality);  // without a folder no report either
+  CHECK(kind_of_error(bad + "output: {report: false}\n", directory) == ErrorKind::quality);
+  CHECK_FALSE(fs::exists(folder.file("new")));
+
+  CHECK(kind_of_error(bad, directory) == ErrorKind::quality);
+  CHECK(n_files() == 2);
+  CHECK(fs::file_size(directory + "/grid.rejected.report.txt") > 500);
+  CHECK(fs::file_size(directory + "/grid.rejected.report.json") > 5000);
+
+  Run run;
+  const Product product = generate(run.context, settings_of(relaxed), {true, directory});
+  CHECK(n_files() == 2);
+  CHECK(write_outputs(run.context, output_content(product, "test"), directory).size() == 6);
+  CHECK(n_files() == 6);
+}
+
+TEST_CASE("what is carried to a sphere for MPAS must meet the requirements as well") {
+  const std::string yaml = yaml_of("{shape: wgs84}", "output: {formats: [mpas]}\n");
+  const testing::TemporaryFolder folder;
+  const std::string path = folder.file("a.nc");
+  Run run;
+  const Product free = generate(run.context, settings_of(yaml), {});
+  write_grid_file(run.context, output_content(free, "test"), FileKind::mpas, path);
+  const auto carried = read_grid_file(run.context, path).origin.certificate;
+  REQUIRE(carried);
+  fs::remove(path);
+
+  // A bound that the grid meets and its image does not.
+  const Certificate own = certificate(free.report.quality);
+  std::string key, bound;
+  const auto consider = [&](const char* name, double body, double sphere, bool is_least) {
+    if (is_least ? sphere >= body : sphere <= body) return;
+    key = text(name, ": ");
+    bound = text("require: {", name, ": ", 0.5 * (body + sphere), "}\n");
+  };
+  consider("stagger_max", own.stagger_max.value, carried->stagger_max.value, false);
+  consider("dual_ratio_min", own.dual_ratio_min.value, carried->dual_ratio_min.value, true);
+  consider("relative_edge_min", own.relative_edge_min->value, carried->relative_edge_min->value,
+           true);
+  REQUIRE_FALSE(key.empty());
+  const Product product = generate(run.context, settings_of(yaml + bound), {});
+  testing::expect_error(
+      ErrorKind::quality, {"sphere of equal area", key, "Nothing was written"},
+      [&] { write_grid_file(run.context, output_content(product, "test"), FileKind::mpas, path); });
+  CHECK(fs::is_empty(folder.file("")));
+}
+
+TEST_CASE("a spacing by edge goes to the sides of the triangles, in any order of the edges") {
+  Mesh mesh = samples::bisected_icosahedron(Ellipsoid(), 2);
+  std::vector<std::array<Index, 2>> cells, triangles;
+  std::vector<double> spacing_m;
+  for (Index tri = mesh.n_triangles() - 1; tri >= 0; --tri) {
+    for (int k = 0; k < 3; ++k) {
+      const Triangle& triangle = mesh.triangle(tri);
+      const Index other = triangle.neighbour[static_cast<std::size_t>(k)];
+      if (other < tri) continue;
+      cells.push_back({triangle.vertex[static_cast<std::size_t>(next_corner(k))],
+                       triangle.vertex[static_cast<std::size_t>(previous_corner(k))]});
+      triangles.push_back({other, tri});
+      spacing_m.push_back(2.0 * (3 * tri + k + 1));
+    }
+  }
+  const SideSpacing by_cells = spacing_by_side(mesh, {cells, EdgeEnds::vertices, spacing_m}, 2.0);
+  const SideSpacing by_triangles =
+      spacing_by_side(mesh, {triangles, EdgeEnds::triangles, spacing_m}, 2.0);
+  for (Index tri = 0; tri < mesh.n_triangles(); ++tri) {
+    for (int k = 0; k < 3; ++k) {
+      const Index other = mesh.triangle(tri).neighbour[static_cast<std::size_t>(k)];
+      const double wanted =
+          other > tri ? 3 * tri + k + 1 : 3 * other + side_towards(mesh.triangle(other), tri) + 1;
+      CHECK(by_cells(tri, k) == wanted);
+      CHECK(by_triangles(tri, k) == wanted);
+    }
+  }
+  std::vector<double> bad = spacing_m;
+  bad[5] = 0.0;
+  testing::expect_error(ErrorKind::input, {"delos_edge_spacing is 0 at edge 6 (from 1)"}, [&] {
+    spacing_by_side(mesh, {cells, EdgeEnds::vertices, bad}, 2.0);
+  });
+  cells[7] = cells[8];
+  testing::expect_error(ErrorKind::input, {"is not in the list of edges"}, [&] {
+    spacing_by_side(mesh, {cells, EdgeEnds::vertices, spacing_m}, 2.0);
+  });
 }
 
 TEST_CASE("baselines have the number of cells that their names promise") {

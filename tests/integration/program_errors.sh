@@ -98,8 +98,15 @@ config "$uniform"
 expect 'an override that is wrong' 3 "override threads" c.yaml -o out --set threads=many
 expect 'an output folder under a file' 5 "c.yaml" c.yaml -o c.yaml/out
 expect 'an output folder that can not be written' 5 "/proc" c.yaml -o /proc/out
-config "$uniform" 'require: {max_angle: 60.1 deg}'
-expect 'a requirement that is not met' 7 "max_angle" c.yaml -o out
+config "$uniform" 'require: {angle_max: 60.1 deg}
+output: {report: false}'
+expect 'a requirement that is not met' 7 "instead of at most 60.1 deg, at triangle" c.yaml -o out
+config "$uniform" 'require: {dual_ratio: 0.1}'
+expect 'an unknown requirement' 3 "c.yaml:5 require.dual_ratio: unknown key. Did you mean 'dual_ratio_min'?" c.yaml -o out
+config "$uniform" 'require: {dual_ratio_min: 0.7}'
+expect 'a requirement that no grid meets' 3 "0.7: must be between 0 and 0.577" c.yaml -o out
+config "$uniform" 'require: {angle_max: 85 km}'
+expect 'a requirement in a wrong unit' 3 "is a length, but an angle is needed" c.yaml -o out
 
 config "$uniform"
 disk=$work/disk

@@ -46,6 +46,18 @@ must 'info shows digest and configuration' sh -c "'$delos' info out/small.mpas.n
   grep -q '^digest *[0-9a-f]\{64\}$' info.txt && grep -q '500 km' info.txt"
 must 'check refuses what is no grid' sh -c "! '$delos' check c.yaml 2>check_error.txt && grep -q '^delos: error' check_error.txt"
 
+# What rounding makes of coordinates counts more the shorter the edges are.
+cat >fine.yaml <<'YAML'
+sizing:
+  resolution: 0.25 deg
+  sources: [{type: disc, centre: [10 deg, 85 deg], radius: 0.3 deg, spacing: 1 km, outside: 900 km}]
+  gradient_limit: 0.15
+output: {name: fine}
+YAML
+must 'a grid with edges of a kilometre is sound' sh -c "
+  '$delos' mesh fine.yaml -o fine --quiet && '$delos' check fine >fine.txt &&
+  test \$(grep -c ': sound' fine.txt) = 3"
+
 # A damaged table must be noticed: the last bytes of the file belong to some array.
 cp out/small.mpas.nc damaged.nc
 python3 - <<'PY'

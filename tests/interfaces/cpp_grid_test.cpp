@@ -75,6 +75,62 @@ TEST_CASE("every span has the documented length and ids in range") {
   }
 }
 
+TEST_CASE("the certificate names elements of the grid's own arrays") {
+  const delos::Grid grid = small_grid();
+  const delos::Certificate& certificate = grid.certificate();
+  CHECK(certificate.well_centred);
+  CHECK(certificate.well_centred_fraction == 1.0);
+  CHECK(certificate.n_obtuse == 0);
+  CHECK(certificate.spacing_kept);
+  CHECK(certificate.relative_edge_min.value >= certificate.relative_edge_bound);
+  const auto at = [](std::int64_t i) { return static_cast<std::size_t>(i); };
+
+  // The dual edge over its edge, as arcs: near the chords of the measure.
+  const delos::Worst& dual = certificate.dual_ratio_min;
+  REQUIRE(dual.id >= 0);
+  REQUIRE(dual.id < grid.n_edges());
+  CHECK(grid.cells_on_edge()[2 * at(dual.id)] == dual.cells[0]);
+  CHECK(grid.cells_on_edge()[2 * at(dual.id) + 1] == dual.cells[1]);
+  double least = 1e9;
+  for (std::size_t i = 0; i < at(grid.n_edges()); ++i) {
+    least = std::min(least, grid.vertex_distance_m()[i] / grid.cell_distance_m()[i]);
+  }
+  CHECK(dual.value == doctest::Approx(least).epsilon(1e-2));
+  CHECK(grid.vertex_distance_m()[at(dual.id)] / grid.cell_distance_m()[at(dual.id)] ==
+        doctest::Approx(least).epsilon(1e-3));
+
+  const delos::Worst& edge = certificate.relative_edge_min;
+  CHECK(grid.edge_spacing_m().size() == at(grid.n_edges()));
+  CHECK(grid.edge_spacing_m()[at(edge.id)] == doctest::Approx(600e3));
+  CHECK(grid.cell_distance_m()[at(edge.id)] / 600e3 == doctest::Approx(edge.value).epsilon(1e-2));
+  CHECK(grid.edge_lon_lat()[2 * at(edge.id)] == doctest::Approx(edge.lon_rad));
+  CHECK(grid.edge_lon_lat()[2 * at(edge.id) + 1] == doctest::Approx(edge.lat_rad));
+
+  const delos::Worst& angle = certificate.angle_max_deg;
+  CHECK(angle.id < grid.n_vertices());
+  CHECK(angle.cells[0] == -1);
+  CHECK(angle.value > 60.0);
+  CHECK(angle.value < 90.0);
+}
+
+TEST_CASE("a requirement that is missed is an error of its own kind, and nothing is written") {
+  auto config = delos::Config::from_text(kSmall);
+  config.set("require.angle_max", "60.5 deg");
+  try {
+    static_cast<void>(delos::generate(config));
+    FAIL("the requirement was passed over");
+  } catch (const delos::Error& error) {
+    CHECK(error.kind() == delos::ErrorKind::quality);
+    const std::string message = error.what();
+    for (const char* const part : {"angle_max: ", "at most 60.5 deg", "triangle ", "lon "}) {
+      CAPTURE(part);
+      CHECK(message.find(part) != std::string::npos);
+    }
+  }
+  config.set("require.keep", "true");
+  CHECK(delos::generate(config).n_cells() > 1000);
+}
+
 TEST_CASE("the grid does not depend on the number of threads") {
   const auto config = delos::Config::from_text(kSmall);
   const std::string one = delos::generate(config, {.threads = 1}).digest();

@@ -33,7 +33,12 @@ inline Provenance provenance() {
   result.digest = std::string(64, 'a');
   result.inputs = {{"depth of the sea.nc", std::string(64, 'b')}, {"b.nc", std::string(64, 'c')}};
   result.history = history_line(0, "delos mesh a.yaml");
-  result.certificate = FileCertificate{1.0, 0.7, 0.25};
+  result.certificate = FileCertificate{0.75,
+                                       3,
+                                       {91.5, {6, kNone}, {-180.0, 12.5}},
+                                       {0.25, {2, 3}, {10.0, -90.0}},
+                                       {0.125, {0, 9}, {0.1, 0.2}},
+                                       FileExtreme{0.7, {4, 5}, {20.0, 30.0}}};
   return result;
 }
 

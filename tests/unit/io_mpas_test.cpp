@@ -100,7 +100,10 @@ void corrupt(const std::string& path, const std::string& variable, std::int32_t 
 
 TEST_CASE("an MPAS file is read back with the same tables and numbers, in either format") {
   const TemporaryFolder folder;
-  const Grid grid = sample_grid();
+  Grid grid = sample_grid();
+  for (std::int64_t edge = 0; edge < grid.n_edges(); ++edge) {
+    grid.edge_spacing_m.push_back(1e5 + static_cast<double>(edge));
+  }
   for (const Format format : {Format::cdf5, Format::netcdf4}) {
     const std::string path = folder.file("grid.nc");
     delos::write_mpas(path, grid, delos::samples::provenance(), {format, false});
@@ -118,6 +121,7 @@ TEST_CASE("an MPAS file is read back with the same tables and numbers, in either
     CHECK(read.vertex_distance_m == grid.vertex_distance_m);
     CHECK(read.edge_angle_rad == grid.edge_angle_rad);
     CHECK(read.cell_spacing_m == grid.cell_spacing_m);
+    CHECK(read.edge_spacing_m == grid.edge_spacing_m);
     CHECK(read.vertex_lon_lat.back().lon_rad == grid.vertex_lon_lat.back().lon_rad);
     CHECK(n_entries(folder) == 1);
   }

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cstdlib>
+#include <limits>
 #include <set>
 
 #include "support/expect_error.hpp"
@@ -59,7 +60,7 @@ TEST_CASE("provenance is read back as it was written") {
   const Provenance written = delos::samples::provenance();
   {
     delos::netcdf::Writer file(folder.file("a.nc"), delos::netcdf::Format::cdf5);
-    delos::write_provenance(file, written);
+    delos::write_provenance(file, written, {"nTriangles", "nPoints"});
     file.end_definitions();
     file.close();
   }
@@ -71,7 +72,84 @@ TEST_CASE("provenance is read back as it was written") {
   REQUIRE(read.inputs.size() == 2);
   CHECK(read.inputs[0].path == "depth of the sea.nc");
   CHECK(read.inputs[1].sha256 == written.inputs[1].sha256);
-  REQUIRE(read.certificate);
-  CHECK(read.certificate->min_relative_edge == 0.7);
-  CHECK(read.certificate->min_dual_ratio == 0.25);
+}
+
+namespace {
+
+using delos::netcdf::kGlobal;
+using delos::netcdf::Reader;
+using delos::netcdf::Writer;
+
+std::string with_certificate(const TemporaryFolder& folder, const Provenance& provenance) {
+  Writer file(folder.file("c.nc"), delos::netcdf::Format::cdf5);
+  delos::write_provenance(file, provenance, {"nTriangles", "nPoints"});
+  file.end_definitions();
+  file.close();
+  return folder.file("c.nc");
+}
+
+void check_same(const delos::FileExtreme& a, const delos::FileExtreme& b) {
+  CHECK(a.value == b.value);
+  CHECK(a.ids == b.ids);
+  CHECK(a.lon_lat_deg == b.lon_lat_deg);
+}
+
+}  // namespace
+
+TEST_CASE("a certificate is read back, and its ids count from 1 in the file") {
+  const TemporaryFolder folder;
+  Provenance written = delos::samples::provenance();
+  const Reader file(with_certificate(folder, written));
+  CHECK(file.number_attribute("", "delos_angle_max_deg_triangle") == std::vector<double>{7.0});
+  CHECK(file.number_attribute("", "delos_stagger_max_cells") == std::vector<double>{1.0, 10.0});
+  const std::string statement = file.text_attribute("", "delos_certificate").value_or("");
+  for (const char* part : {"from 1", "nTriangles", "nPoints"}) {
+    CHECK(statement.find(part) != std::string::npos);
+  }
+  const auto read = delos::read_provenance(file).certificate;
+  REQUIRE(read);
+  CHECK(read->well_centred == 0.75);
+  CHECK(read->n_obtuse == 3);
+  check_same(read->angle_max_deg, written.certificate->angle_max_deg);
+  check_same(read->dual_ratio_min, written.certificate->dual_ratio_min);
+  check_same(read->stagger_max, written.certificate->stagger_max);
+  REQUIRE(read->relative_edge_min);
+  check_same(*read->relative_edge_min, *written.certificate->relative_edge_min);
+
+  written.certificate->relative_edge_min.reset();
+  const auto without = delos::read_provenance(Reader(with_certificate(folder, written)));
+  REQUIRE(without.certificate);
+  CHECK_FALSE(without.certificate->relative_edge_min);
+  written.certificate.reset();
+  CHECK_FALSE(delos::read_provenance(Reader(with_certificate(folder, written))).certificate);
+}
+
+TEST_CASE("a certificate of no number is not written") {
+  const TemporaryFolder folder;
+  Provenance written = delos::samples::provenance();
+  written.certificate->stagger_max.value = std::numeric_limits<double>::quiet_NaN();
+  expect_error(ErrorKind::internal, {"delos_stagger_max", "finite"},
+               [&] { with_certificate(folder, written); });
+}
+
+TEST_CASE("a certificate in part, or of ids that can't be, is refused by attribute") {
+  const TemporaryFolder folder;
+  const auto refused = [&](const char* name, std::vector<double> values, const char* part) {
+    {
+      Writer file(folder.file("c.nc"), delos::netcdf::Format::cdf5);
+      file.attribute(kGlobal, "delos_well_centred", 1.0);
+      file.attribute(kGlobal, "delos_n_obtuse", std::int32_t{0});
+      file.attribute(kGlobal, "delos_angle_max_deg", 80.0);
+      file.attribute(kGlobal, name, std::span<const double>(values));
+      file.end_definitions();
+      file.close();
+    }
+    expect_error(ErrorKind::input, {"c.nc", part},
+                 [&] { delos::read_provenance(Reader(folder.file("c.nc"))); });
+  };
+  refused("other", {1.0}, "delos_angle_max_deg_triangle is missing");
+  refused("delos_angle_max_deg_triangle", {0.0}, "no id from 1");
+  refused("delos_angle_max_deg_triangle", {1.5}, "no id from 1");
+  refused("delos_angle_max_deg_triangle", {1.0, 2.0}, "is not 1 finite number");
+  refused("delos_angle_max_deg_triangle", {5.0}, "delos_angle_max_deg_lon_lat is missing");
 }

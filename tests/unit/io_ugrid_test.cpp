@@ -18,6 +18,7 @@ using delos::kPi;
 using delos::LatitudeKind;
 using delos::LonLat;
 using delos::Mesh;
+using delos::SpacingField;
 using delos::UgridMesh;
 using delos::Vec3;
 using delos::netcdf::Format;
@@ -171,14 +172,48 @@ TEST_CASE("the first variable is the area, so that CDO finds the grid") {
 TEST_CASE("without bounds a file is smaller, and its size is announced") {
   const TemporaryFolder folder;
   const Mesh mesh = delos::samples::bisected_icosahedron(Ellipsoid(), 5);
+  const SpacingField field = SpacingField::constant(Ellipsoid(), 0.1);
   for (const bool bounds : {true, false}) {
     const delos::UgridOptions options{Format::cdf5, bounds};
-    delos::write_ugrid_triangles(folder.file("a.nc"), mesh, {}, {}, options);
+    delos::write_ugrid_triangles(folder.file("a.nc"), mesh,
+                                 {Ellipsoid(), LatitudeKind::geodetic, &field}, {}, options);
     const double actual = static_cast<double>(std::filesystem::file_size(folder.file("a.nc")));
     CHECK(static_cast<double>(delos::ugrid_triangles_size_bytes(mesh.n_vertices(), options)) ==
           doctest::Approx(actual).epsilon(0.02));
     CHECK(Reader(folder.file("a.nc")).has_variable("delos_triangles_face_lat_bounds") == bounds);
   }
+}
+
+TEST_CASE("the spacing at the edges is read back with the edges' nodes") {
+  const TemporaryFolder folder;
+  const Ellipsoid body = Ellipsoid::wgs84();
+  const Mesh mesh = delos::samples::shaken(body, 3, 0.1, 5);
+  delos::LatLonField table{18, 36, std::vector<double>(19 * 36)};
+  for (std::size_t i = 0; i < table.values.size(); ++i) {
+    table.values[i] = 1e5 + 1e3 * static_cast<double>(i);
+  }
+  const SpacingField field = SpacingField::table(body, LatitudeKind::geodetic, table);
+  const std::string path = folder.file("a.nc");
+  delos::write_ugrid_triangles(path, mesh, {body, LatitudeKind::geodetic, &field}, {});
+  const UgridMesh triangles = delos::read_ugrid(path);
+  REQUIRE(triangles.edge_spacing_m.size() == 3 * mesh.vertices.size() - 6);
+  for (std::size_t i = 0; i < triangles.edge_spacing_m.size(); ++i) {
+    const auto [a, b] = triangles.nodes_on_edge[i];
+    const Vec3 middle = body.project(0.5 * (mesh.position(a) + mesh.position(b)));
+    const double wanted_m = body.scale_m() * field.at(middle.x(), middle.y(), middle.z());
+    CHECK(triangles.edge_spacing_m[i] == doctest::Approx(wanted_m).epsilon(1e-12));
+  }
+
+  Grid grid = delos::samples::grid_of(body, mesh);
+  delos::write_ugrid_cells(path, grid, {});
+  CHECK(delos::read_ugrid(path).edge_spacing_m.empty());
+  for (std::int64_t edge = 0; edge < grid.n_edges(); ++edge) {
+    grid.edge_spacing_m.push_back(1e5 + static_cast<double>(edge));
+  }
+  delos::write_ugrid_cells(path, grid, {});
+  const UgridMesh cells = delos::read_ugrid(path);
+  CHECK(cells.edge_spacing_m == grid.edge_spacing_m);
+  CHECK(cells.nodes_on_edge == grid.vertices_on_edge);
 }
 
 TEST_CASE("foreign files are read: either base, padding, radians, connectivity by columns") {

@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include "core/error.hpp"
+#include "lifecycle/require.hpp"
 
 using namespace delos;
 
@@ -46,7 +47,7 @@ TEST_CASE("a uniform grid needs nothing but its spacing") {
   CHECK(settings.output.mpas);
   CHECK_FALSE(settings.sizing.needs_bathymetry);
   CHECK(settings.refine.size_ratio == RefineOptions{}.size_ratio);
-  CHECK_FALSE(settings.require.well_centred);
+  CHECK_FALSE(settings.require.bounds.well_centred);
 }
 
 TEST_CASE("an unknown key is refused with its line and the nearest valid key") {
@@ -140,6 +141,58 @@ TEST_CASE("the effective text holds the defaults and reads back to the same text
   CHECK(read(settings.text).text == settings.text);
   // The grid depends neither on the threads nor on the folder.
   CHECK(read(kUniform).text == settings.text);
+}
+
+TEST_CASE("every requirement can be asked for, in its unit") {
+  for (const RequirementRule& rule : requirement_rules()) {
+    CAPTURE(rule.key);
+    const double middle = 0.5 * (rule.lowest + rule.highest);
+    const Settings settings =
+        read(text(kUniform, "require: {", rule.key, ": ", middle, std::string(rule.unit), "}\n"));
+    REQUIRE(settings.require.bounds.*rule.wanted);
+    CHECK(*(settings.require.bounds.*rule.wanted) == doctest::Approx(middle));
+    CHECK(settings.text.find(rule.key) != std::string::npos);
+    CHECK(read(settings.text).text == settings.text);
+  }
+  const Requirements bounds =
+      read(std::string(kUniform) + "require: {well_centred: true, degree_6_min: 0.9}\n")
+          .require.bounds;
+  CHECK(bounds.well_centred);
+  CHECK(bounds.degree_6_min == 0.9);
+  CHECK_FALSE(bounds.angle_max_deg);
+  CHECK(read(std::string(kUniform) + "require: {angle_max: 1.5 rad}\n")
+            .require.bounds.angle_max_deg.value() == doctest::Approx(85.943669));
+}
+
+TEST_CASE("a requirement that is unknown, unmeetable or without its unit is refused") {
+  const auto error = [](const std::string& block) {
+    return error_of(std::string(kUniform) + "require:\n  " + block + "\n");
+  };
+  has(error("relativ_edge_min: 0.65"),
+      "a.yaml:5 require.relativ_edge_min: unknown key. Did you mean 'relative_edge_min'?");
+  has(error("min_dual_ratio: 0.1"), "require.min_dual_ratio: unknown key.");
+  has(error("relative_edge_min: 1.1"), "1.1: must be between 0 and 1");
+  has(error("relative_edge_min: -0.1"), "-0.1: must be between 0 and 1");
+  has(error("dual_ratio_min: 0.9"), "0.9: must be between 0 and 0.577");
+  has(error("angle_max: 59 deg"), "59 deg: must be between 60 and 180 deg");
+  has(error("angle_max: 85"), "a.yaml:5 require.angle_max: '85' has no unit");
+  has(error("angle_min: 20 km"), "is a length, but an angle is needed");
+  has(error("stagger_max: 0.1 deg"), "is an angle, but a number without unit is needed");
+  has(error("degree_max: 5"), "must be between 6 and 100");
+  has(error("area_length_min: nan"), "'nan' is not a number");
+  has(error("well_centred: perhaps"), "neither true nor false");
+  has(error("well_centred: {}"), "a single value is needed");
+  has(error_of(std::string(kUniform) + "require: true\n"),
+      "a.yaml:4 require: a map of keys is needed here");
+}
+
+TEST_CASE("the requirements can be read alone") {
+  const ConfigNode root = parse_config("anything: [1]\nrequire: {angle_max: 85 deg}\n", "b.yaml");
+  CHECK(read_require(root).bounds.angle_max_deg == 85.0);
+  CHECK_FALSE(read_require(ConfigNode{}).bounds.angle_max_deg);
+  CHECK_THROWS_WITH_AS(
+      static_cast<void>(read_require(parse_config("require: {angle_mix: 85 deg}\n", "b.yaml"))),
+      doctest::Contains("b.yaml:1 require.angle_mix: unknown key"), Error);
 }
 
 TEST_CASE("baselines take subdivisions or a spacing") {

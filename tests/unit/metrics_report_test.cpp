@@ -21,8 +21,9 @@ Report sample_report() {
   report.title = "sample";
   report.version = "0.1.0";
   report.surface = Ellipsoid::wgs84();
-  report.quality =
-      measure_quality(context, report.surface, samples::bisected_icosahedron(report.surface, 3));
+  const SpacingField spacing = SpacingField::constant(report.surface, 1e6);
+  report.quality = measure_quality(context, report.surface, spacing,
+                                   samples::bisected_icosahedron(report.surface, 3));
   report.expected_vertices = 640.0;
   report.digest = std::string(64, 'a');
   for (int i = 0; i < 40; ++i) report.phases.push_back({"a phase of long name", 1.5, 2.5, 10});
@@ -57,6 +58,46 @@ TEST_CASE("the JSON report reads back to the same numbers") {
   CHECK(json["phases"][0]["wall_s"] == 1.5);
   CHECK(json["phases"][0]["cpu_s"] == 2.5);
   CHECK(json["phases"][0]["items"] == 10);
+}
+
+TEST_CASE("worst elements are named by triangle or cells, from 1") {
+  Report report = sample_report();
+  const Quality& quality = report.quality;
+  const auto json = nlohmann::json::parse(report_json(report));
+  CHECK(json["index_base"] == 1);
+  const auto& certificate = json["certificate"];
+  CHECK(certificate["well_centred_fraction"] == 1.0);
+  CHECK(certificate["n_obtuse"] == 0);
+  CHECK(certificate["angle_max_deg"]["value"].get<double>() == quality.angle_max_deg.value);
+  CHECK(certificate["angle_max_deg"]["triangle"] == quality.angle_max_deg.id + 1);
+  CHECK(certificate["stagger_max"]["cells"][1] == quality.stagger_max.other + 1);
+  CHECK(certificate["dual_ratio_min"]["cells"][0] == quality.dual_ratio_min.id + 1);
+  CHECK(certificate["dual_ratio_min"]["lat_deg"].get<double>() ==
+        doctest::Approx(quality.dual_ratio_min.where.lat_rad * kDegPerRad).epsilon(1e-14));
+  CHECK(certificate["relative_edge_bound"] == 0.65);
+  CHECK(json["quality"]["degree_min"]["cell"] == quality.degree_min.id + 1);
+  CHECK(json["requirements_missed"].empty());
+  CHECK(report_text(report).find(text(quality.stagger_max.id + 1, "-",
+                                      quality.stagger_max.other + 1)) != std::string::npos);
+}
+
+TEST_CASE("a spacing that nobody knows leaves no number in the report") {
+  Report report = sample_report();
+  report.quality.knows_spacing = false;
+  const auto json = nlohmann::json::parse(report_json(report));
+  CHECK_FALSE(json["quality"].contains("relative_edge_min"));
+  CHECK_FALSE(json["certificate"].contains("relative_edge_min"));
+  CHECK_FALSE(json["certificate"].contains("spacing_kept"));
+  CHECK(report_text(report).find("edge/h") == std::string::npos);
+  CHECK(report_text(report).find("spacing not known") != std::string::npos);
+}
+
+TEST_CASE("what is required and missed stands in both reports") {
+  Report report = sample_report();
+  report.missed = {"angle_max: 80 deg instead of at most 70 deg.", "degree_max: 8."};
+  const auto json = nlohmann::json::parse(report_json(report));
+  CHECK(json["requirements_missed"][1] == "degree_max: 8.");
+  CHECK(report_text(report).find("but missed: angle_max degree_max\n") != std::string::npos);
 }
 
 TEST_CASE("a number that is not finite is refused by its name") {

@@ -122,7 +122,7 @@ TEST_CASE("globe, map and histograms are PNG files of the size asked for") {
   Monitor monitor;
   parallel::Executor exec(2);
   Context context{exec, monitor};
-  const Quality quality = measure_quality(context, example.surface, example.mesh);
+  const Quality quality = measure_quality(context, example.surface, nullptr, example.mesh);
   PictureOptions options;
   options.title = "seven hundred cells";
   options.width = 480;

@@ -28,6 +28,28 @@ struct Quality {
   double degree_6_fraction;  ///< share of hexagons
 };
 
+/// The worst element of one measure.
+struct Worst {
+  double value;
+  std::int64_t id;                    ///< from 0, into the arrays of Grid: a vertex or an edge
+  std::array<std::int64_t, 2> cells;  ///< of the edge, from 0; -1 for a vertex
+  double lon_rad, lat_rad;            ///< [0, 2 pi), of the configured kind
+};
+
+/// What a C-grid model needs to know before it trusts the grid. The same numbers stand in every
+/// file (delos_*, ids from 1) and in the report.
+struct Certificate {
+  bool well_centred;             ///< every triangle is acute, so every dual edge crosses its primal
+  double well_centred_fraction;  ///< of the triangles
+  std::int64_t n_obtuse;         ///< the others
+  bool spacing_kept;             ///< relative_edge_min.value >= relative_edge_bound
+  double relative_edge_bound;    ///< 0.65
+  Worst relative_edge_min;       ///< an edge: length / wanted spacing
+  Worst dual_ratio_min;          ///< an edge: its dual's length / its own
+  Worst stagger_max;             ///< an edge: distance of its middle from its dual's / its length
+  Worst angle_max_deg;           ///< a vertex (triangle): largest angle
+};
+
 /// Cells are Voronoi polygons, grid vertices are their corners (one for each triangle), edges lie
 /// between two cells. Ids are 32-bit with base 0, counts are 64-bit. Lists around a cell or a
 /// vertex run counter-clockwise seen from outside. Lengths in metres, angles in radians.
@@ -51,6 +73,7 @@ class DELOS_API Grid {
   /// SHA-256 of the triangulation: equal iff two grids are the same to the last bit.
   const std::string& digest() const;
   const Quality& quality() const;
+  const Certificate& certificate() const;
   /// The effective configuration that made this grid.
   const std::string& config_text() const;
   /// The report on one screen, and as JSON.
@@ -90,6 +113,7 @@ class DELOS_API Grid {
   // --- measures
   std::span<const double> cell_area_m2() const;       ///< [n_cells] sums to the surface's area
   std::span<const double> cell_spacing_m() const;     ///< [n_cells] the spacing asked for
+  std::span<const double> edge_spacing_m() const;     ///< [n_edges] the same amid the two cells
   std::span<const double> triangle_area_m2() const;   ///< [n_vertices]
   std::span<const double> kite_area_m2() const;       ///< [n_vertices, 3] as cells_on_vertex
   std::span<const double> cell_distance_m() const;    ///< [n_edges] between the two cells
@@ -119,7 +143,9 @@ class DELOS_API Grid {
 
 #ifndef DELOS_BUILDING_LIBRARY
 namespace delos {
+using api::Certificate;
 using api::Grid;
 using api::Quality;
+using api::Worst;
 }  // namespace delos
 #endif
