@@ -344,6 +344,7 @@ void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch&
   }
   for (std::size_t t = patch.triangles.size(); t < triangle_id.size(); ++t) {
     edits.dead_triangles.push_back(triangle_id[t]);
+    mesh.triangle(triangle_id[t]).vertex.fill(kNone);
   }
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) {
     Triangle& target = mesh.triangle(triangle_id[t]);
@@ -363,7 +364,7 @@ void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch&
   }
 }
 
-NewIds compact(Mesh& mesh, MeshEdits& edits) {
+void compact(Mesh& mesh, MeshEdits& edits) {
   const auto survivors = [](std::size_t n, std::vector<Index>& dead) {
     std::vector<Index> new_id(n);
     for (const Index id : dead) new_id[at(id)] = kNone;
@@ -389,16 +390,6 @@ NewIds compact(Mesh& mesh, MeshEdits& edits) {
   };
   mesh.vertices.resize(count(vertex_id));
   mesh.triangles.resize(count(triangle_id));
-  renumber(triangle_id, edits.touched_triangles);
-  return {vertex_id, triangle_id};
-}
-
-void renumber(const std::vector<Index>& new_id, std::vector<Index>& ids) {
-  std::size_t n_kept = 0;
-  for (const Index id : ids) {
-    if (new_id[at(id)] != kNone) ids[n_kept++] = new_id[at(id)];
-  }
-  ids.resize(n_kept);
 }
 
 }  // namespace delos

@@ -78,10 +78,10 @@ Stars stars(const Patch& patch);
 
 }  // namespace patch
 
-/// What a round of commits leaves to do.
+/// What commits leave to do.
 struct MeshEdits {
   std::vector<Index> dead_vertices;
-  std::vector<Index> dead_triangles;
+  std::vector<Index> dead_triangles;     ///< without corners (kNone) until compact()
   std::vector<Index> touched_triangles;  ///< those written
 };
 /// Writes a patch back. Only patches of one round, which share no vertex, may be committed in a
@@ -90,15 +90,7 @@ struct MeshEdits {
 void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch& mended,
                   MeshEdits& edits);
 
-/// Takes the dead vertices and triangles out of the arrays; the survivors keep their order. Returns
-/// the new ids by old id, kNone for the dead.
-struct NewIds {
-  std::vector<Index> vertices;
-  std::vector<Index> triangles;
-};
-NewIds compact(Mesh& mesh, MeshEdits& edits);
-
-/// Replaces ids by new ones; the dead are dropped.
-void renumber(const std::vector<Index>& new_id, std::vector<Index>& ids);
+/// Takes the dead vertices and triangles out of the arrays; the survivors keep their order.
+void compact(Mesh& mesh, MeshEdits& edits);
 
 }  // namespace delos

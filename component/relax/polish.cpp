@@ -159,9 +159,9 @@ void mend(Context& context, const Target& target, const RelaxOptions& options, c
 }
 
 // Writes the better patches back and remembers what was tried where.
-MeshEdits commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_vertex,
-                 TriedMeans& tried) {
-  MeshEdits edits;
+void commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_vertex,
+            TriedMeans& tried, MeshEdits& edits) {
+  edits.touched_triangles.clear();
   for (const Job& job : jobs) {
     if (job.is_better) {
       for (const Index v : job.patch.origin.vertices) tried[at(v)] = 0;
@@ -174,19 +174,6 @@ MeshEdits commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_
     }
   }
   tried.resize(mesh.vertices.size(), 0);
-  return edits;
-}
-
-// Takes out what died, and finds a triangle at each vertex anew.
-void compact_all(Mesh& mesh, MeshEdits& edits, TriangleAtVertex& at_vertex, TriedMeans& tried,
-                 std::vector<Index>& bad) {
-  const NewIds new_id = compact(mesh, edits);
-  for (std::size_t v = 0; v < new_id.vertices.size(); ++v) {
-    if (new_id.vertices[v] != kNone) tried[at(new_id.vertices[v])] = tried[v];
-  }
-  tried.resize(mesh.vertices.size());
-  renumber(new_id.triangles, bad);
-  at_vertex = triangle_at_vertex(mesh);
 }
 
 // Only triangles that were bad, have been written or lie next to those can be bad now.
@@ -199,7 +186,9 @@ std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index>
   }
   std::sort(bad.begin(), bad.end());
   bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-  std::erase_if(bad, [&](Index tri) { return !is_bad(mesh, tri, target); });
+  std::erase_if(bad, [&](Index tri) {
+    return mesh.triangle(tri).vertex[0] == kNone || !is_bad(mesh, tri, target);
+  });
   return bad;
 }
 
@@ -213,6 +202,8 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
   context.monitor.advance(mesh.n_triangles() - static_cast<std::int64_t>(bad.size()));
   TriedMeans tried(mesh.vertices.size(), 0);
   TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
+  const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
+  MeshEdits edits;
   for (int round = 0; round < options.polish_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
     const bool is_hostile = bad.size() * kHostileShare > mesh.triangles.size();
@@ -220,22 +211,21 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
         pick_jobs(mesh, at_vertex, tried, is_hostile ? kMovesOnly : kMeans.size(), bad);
     if (jobs.empty()) break;
     mend(context, target, options, {mesh, at_vertex}, jobs);
-    const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
-    MeshEdits edits = commit(jobs, mesh, at_vertex, tried);
-    report.n_inserted += static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
-    report.n_removed += static_cast<std::int64_t>(edits.dead_vertices.size());
-    const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    if (!edits.dead_vertices.empty()) compact_all(mesh, edits, at_vertex, tried, bad);
+    commit(jobs, mesh, at_vertex, tried, edits);
     std::vector<Index> written = edits.touched_triangles;
     report.n_flips += restore_delaunay(mesh, target.surface, edits.touched_triangles, &written);
     for (const Index tri : written) {
       for (const Index v : mesh.triangle(tri).vertex) at_vertex[at(v)] = tri;
     }
+    const auto n_bad_before = static_cast<std::int64_t>(bad.size());
     bad = still_bad(mesh, options.target_quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.rounds;
   }
+  report.n_inserted = static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
+  report.n_removed = static_cast<std::int64_t>(edits.dead_vertices.size());
   report.n_below_target = static_cast<std::int64_t>(bad.size());
+  if (!edits.dead_vertices.empty()) compact(mesh, edits);
   return report;
 }
 
