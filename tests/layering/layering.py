@@ -14,6 +14,7 @@ import tempfile
 # Layer -> layers it may include (beside itself). Read from bottom to top.
 BELOW = {
     "core": [],
+    "time": ["core"],
     "geometry": ["core"],
     "triangulation": ["geometry", "core"],
     "sizing": ["triangulation", "geometry", "core"],
@@ -24,13 +25,13 @@ BELOW = {
     "io": ["dual", "sizing", "triangulation", "geometry", "core"],
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
     "lifecycle": ["io", "metrics", "dual", "relax", "refine", "sizing", "triangulation",
-                  "geometry", "core"],
+                  "geometry", "time", "core"],
     "app": ["lifecycle", "pictures", "io", "metrics", "dual", "relax", "refine", "sizing",
-            "triangulation", "geometry", "core"],
+            "triangulation", "geometry", "time", "core"],
 }
 # What adapters may name: the phase functions and what these hand over.
 INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "dual", "sizing", "triangulation",
-                          "geometry", "core"]
+                          "geometry", "time", "core"]
 # Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
 NO_LAYERS = ["cmake", "performance"]
 # Layers whose code is on the path from configuration to grid: no libm there.
@@ -58,6 +59,9 @@ PRINTS = re.compile(r"\bstd::(?:cout|cerr|clog|printf|puts)\b|(?<![\w:.>])(?:pri
                     r"putchar|perror)\s*\(|#include\s*<iostream>")
 ENDS_PROCESS = re.compile(r"(?<![\w.>])(?:std::|::)?(?:exit|abort|quick_exit|_exit|signal|sigaction|"
                           r"setlocale|fesetround|feenableexcept)\s*\(")
+# Model time comes from its caller: neither the machine's clock nor its locale has a part in it.
+WORLD = re.compile(r"#include\s*<(?:chrono|ctime|time\.h|sys/time\.h|locale|clocale|sstream|iomanip)>|"
+                   r"\bstd::(?:chrono|time|locale|stoi|stol|stoll|stod|strtod)\b|\bsetlocale\b")
 INCLUDE = re.compile(r'^\s*#\s*include\s*"([^"]+)"')
 
 
@@ -122,6 +126,8 @@ def check_lines(path, layer, lines, raw_lines):
                                "its bits differ between systems, use delos::elementary")
             if re.search(r"\bstd::execution\b|#include\s*<thread>|\bstd::async\b|\bomp\b", text):
                 yield "threads", f"{where}: threads only through core/parallel"
+        if layer == "time" and WORLD.search(text):
+            yield "clock", f"{where}: model time knows neither the machine's clock nor its locale"
         if layer != "app":
             if PRINTS.search(text):
                 yield "print", f"{where}: the library never prints; log through the monitor"
@@ -168,6 +174,8 @@ def violations(root):
 PLANTED = [
     ("include", "component/geometry/bad.cpp", '#include "refine/refine.hpp"\n'),
     ("include", "component/refine/bad.cpp", '#include "relax/relax.hpp"\n'),
+    ("include", "component/time/bad.cpp", '#include "geometry/ellipsoid.hpp"\n'),
+    ("include", "component/geometry/bad.cpp", '#include "time/clock.hpp"\n'),
     ("include", "interfaces/cpp/delos/bad.cpp", '#include "app/main.hpp"\n'),
     ("oneTBB", "component/relax/bad.cpp", "void f() { tbb::parallel_for(0, 1, g); }\n"),
     ("oneTBB", "component/core/bad.cpp", "#include <oneapi/tbb/task_arena.h>\n"),
@@ -180,6 +188,8 @@ PLANTED = [
     ("libm", "component/relax/bad.cpp", "double f(double x) { return 2.0 * pow(x, 3); }\n"),
     ("libm", "component/dual/bad.cpp", "double f(double x) { return std::fma(x, x, x); }\n"),
     ("threads", "component/refine/bad.cpp", "#include <thread>\n"),
+    ("clock", "component/time/bad.cpp", "#include <chrono>\n"),
+    ("clock", "component/time/bad.cpp", "double f(const char* t) { return std::stod(t); }\n"),
     ("print", "component/metrics/bad.cpp", 'void f() { std::cout << "x"; }\n'),
     ("print", "component/io/bad.cpp", 'void f() { printf("x"); }\n'),
     ("process", "component/lifecycle/bad.cpp", "void f() { std::exit(1); }\n"),
