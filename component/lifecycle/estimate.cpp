@@ -54,6 +54,10 @@ Estimate estimate_cost(const Settings& settings, double n_cells, bool with_dual)
   Estimate out;
   out.n_cells = n_cells;
   out.memory_bytes = n_cells * (kMeshBytes + (with_dual ? kDualBytes : 0.0));
+  // An MPAS file of an ellipsoid is written from a copy of the grid carried to the sphere.
+  if (with_dual && settings.output.mpas && !settings.surface.is_sphere()) {
+    out.memory_bytes += n_cells * kDualBytes;
+  }
   const auto count = static_cast<std::int64_t>(std::min(n_cells, kMaxCells));
   const OutputSettings& output = settings.output;
   out.disk_bytes = kReportBytes;
