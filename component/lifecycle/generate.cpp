@@ -2,6 +2,7 @@
 #include "lifecycle/generate.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "core/error.hpp"
 #include "dual/build.hpp"
@@ -85,6 +86,17 @@ Mesh triangulate(Context& context, const Settings& settings, const SpacingField&
   sections.push_back(
       relax_section(relax(context, settings.surface, spacing, settings.relax, mesh)));
   return mesh;
+}
+
+/// What lies between the points at which the front looks up the spacing, it can't see.
+void check_count(const Settings& settings, const Mesh& mesh, double expected) {
+  constexpr double kLeastShare = 0.8;  // smooth spacings come within 3 %
+  constexpr double kFew = 50.0;        // cells: where so few are wanted a share says nothing
+  if (settings.generator != Generator::frontal) return;
+  DELOS_CHECK(mesh.n_vertices() >= kLeastShare * expected - kFew, ErrorKind::input, "the grid has ",
+              mesh.n_vertices(), " cells where the spacing asks for about ", std::round(expected),
+              ": patches of fine spacing lie between coarser cells and were not seen. Limit the "
+              "gradient (sizing.gradient_limit, 0.1 to 0.3 are usual), or smooth the spacing.");
 }
 
 void describe_inputs(const Settings& settings, const Inputs& inputs, Report& report) {
@@ -175,6 +187,7 @@ Product generate(Context& context, const Settings& settings, const GenerateScope
   check_cost(context, settings, report.expected_vertices, scope);
 
   product.mesh = triangulate(context, settings, sized.field, report.sections);
+  check_count(settings, product.mesh, report.expected_vertices);
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = sized.field;
   report.digest = digest(product.mesh);

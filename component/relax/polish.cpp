@@ -20,9 +20,13 @@ struct Means {
 };
 constexpr std::array<Means, 5> kMeans = {{{1, false}, {2, false}, {2, true}, {3, true}, {4, true}}};
 constexpr std::size_t kMovesOnly = 2;  // the first means, which only move vertices
-// Where more than one triangle in so many is bad, the spacing itself is too rough for any mesh to
-// follow, and searching for better topologies would only take time.
-constexpr std::size_t kHostileShare = 50;
+// Where more than one triangle in so many is bad, and not a few of a coarse mesh either, the
+// spacing itself is too rough for any mesh to follow: the bad ones lie in crowds, of which a round
+// mends the rims, and searching for better topologies would only take time. Most of what can be
+// gained there is gained in a few rounds.
+constexpr std::size_t kHostileShare = 40;
+constexpr std::size_t kHostileCount = 2000;
+constexpr int kHostileRounds = 16;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -204,11 +208,14 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
   TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
   const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
   MeshEdits edits;
-  for (int round = 0; round < options.polish_rounds && !bad.empty(); ++round) {
+  const bool is_hostile =
+      bad.size() > kHostileCount && bad.size() * kHostileShare > mesh.triangles.size();
+  const std::size_t n_means = is_hostile ? kMovesOnly : kMeans.size();
+  const int most_rounds =
+      is_hostile ? std::min(kHostileRounds, options.polish_rounds) : options.polish_rounds;
+  for (int round = 0; round < most_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
-    const bool is_hostile = bad.size() * kHostileShare > mesh.triangles.size();
-    std::vector<Job> jobs =
-        pick_jobs(mesh, at_vertex, tried, is_hostile ? kMovesOnly : kMeans.size(), bad);
+    std::vector<Job> jobs = pick_jobs(mesh, at_vertex, tried, n_means, bad);
     if (jobs.empty()) break;
     mend(context, target, options, {mesh, at_vertex}, jobs);
     commit(jobs, mesh, at_vertex, tried, edits);

@@ -52,7 +52,24 @@ sizing:
   gradient_limit: 0.15
 refine: {tile_vertices: 2000}
 YAML
-cases=(sphere wgs84 triaxial patch data)
+config flat <<'YAML'
+surface: {shape: ellipsoid, radii: [6371.22 km, 4459.854 km, 2548.488 km]}
+sizing: {sources: [{type: constant, spacing: 200 km}]}
+YAML
+config contrast <<'YAML'
+sizing:
+  resolution: 0.25 deg
+  gradient_limit: 0.15
+  sources:
+    - {type: disc, centre: [30 deg, 10 deg], radius: 0.5 deg, spacing: 1 km, outside: 1000 km, transition: linear, width: 0.3 deg}
+YAML
+config step <<'YAML'
+sizing:
+  resolution: 1 deg
+  sources:
+    - {type: box, west: 0 deg, east: 60 deg, south: -20 deg, north: 30 deg, spacing: 100 km, outside: 600 km, transition: linear, width: 0 deg}
+YAML
+cases=(sphere wgs84 triaxial patch data flat contrast step)
 
 mapfile -t cache < <(compiler_cache)
 for build in "${builds[@]}"; do
