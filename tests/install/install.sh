@@ -26,6 +26,9 @@ cmake -S "$here/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -D
 cmake --build "$work/build" -j 2 >/dev/null
 "$work/build/consumer"
 "$work/build/c_consumer"
+if compgen -G "$work/prefix/include/delos/fortran/delos.mod" >/dev/null; then
+  "$work/build/fortran_consumer"
+fi
 # The library must show nothing but its own names.
 library=$(find "$work/prefix" -name 'libdelos.so' | head -1)
 if [[ -n $library ]]; then
