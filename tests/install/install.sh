@@ -18,20 +18,20 @@ if [[ -n $strays ]]; then
   exit 1
 fi
 # Nothing may point back into the build or source tree.
-if grep -rlF -e "$build" -e "$(dirname "$(dirname "$here")")" "$work/prefix" --include='*.cmake' --include='*.hpp'; then
+if grep -rlF -e "$build" -e "$(dirname "$(dirname "$here")")" "$work/prefix" --include='*.cmake' --include='*.hpp' --include='*.h'; then
   echo "the files above name the build or source tree" >&2
   exit 1
 fi
 cmake -S "$here/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE="$type" >/dev/null
 cmake --build "$work/build" -j 2 >/dev/null
 "$work/build/consumer"
+"$work/build/c_consumer"
+if compgen -G "$work/prefix/include/delos/fortran/delos.mod" >/dev/null; then
+  "$work/build/fortran_consumer"
+fi
 # The library must show nothing but its own names.
 library=$(find "$work/prefix" -name 'libdelos.so' | head -1)
 if [[ -n $library ]]; then
-  strangers=$(nm -DC --defined-only "$library" | grep 'delos::' | grep -v 'delos::api::' | head -5 || true)
-  if [[ -n $strangers ]]; then
-    echo "symbols that should be hidden: $strangers" >&2
-    exit 1
-  fi
+  "$here/../interfaces/symbols.sh" "$library" "$work/prefix/include/delos/delos.h"
 fi
 echo "install: headers, package and library serve a consumer"

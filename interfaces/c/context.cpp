@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "handle.hpp"
+
+namespace delos::c {
+namespace {
+
+const char* kind_name(std::uint64_t magic) {
+  switch (magic) {
+    case kContextMagic:
+      return "a context";
+    case kConfigMagic:
+      return "a configuration";
+    case kGridMagic:
+      return "a grid";
+    default:
+      return "destroyed";
+  }
+}
+
+bool is_known(std::uint64_t magic) {
+  return magic == kContextMagic || magic == kConfigMagic || magic == kGridMagic ||
+         magic == kDeadMagic;
+}
+
+}  // namespace
+
+int fail(const Handle& handle, int status, const char* place, const char* message) noexcept {
+  try {
+    handle.error = place;
+    if (*place != '\0') handle.error += ": ";
+    handle.error += message;
+  } catch (...) {
+    handle.error.clear();
+  }
+  return status;
+}
+
+int status_of(ErrorKind kind) noexcept {
+  switch (kind) {
+    case ErrorKind::config:
+      return DELOS_ERROR_CONFIG;
+    case ErrorKind::input:
+      return DELOS_ERROR_INPUT;
+    case ErrorKind::output:
+      return DELOS_ERROR_OUTPUT;
+    case ErrorKind::resource:
+      return DELOS_ERROR_RESOURCE;
+    case ErrorKind::state:
+      return DELOS_ERROR_STATE;
+    case ErrorKind::quality:
+      return DELOS_ERROR_QUALITY;
+    case ErrorKind::cancelled:
+      return DELOS_ERROR_CANCELLED;
+    case ErrorKind::internal:
+      break;
+  }
+  return DELOS_ERROR_INTERNAL;
+}
+
+int check_handle(const Handle* handle, std::uint64_t kind, const char* function) noexcept {
+  if (handle == nullptr) return DELOS_ERROR_ARGUMENT;
+  if (handle->magic == kind) return DELOS_SUCCESS;
+  // What is no handle at all must not be written to.
+  if (!is_known(handle->magic)) return DELOS_ERROR_STATE;
+  return guarded(*handle, function, [&] {
+    throw Refusal{DELOS_ERROR_STATE, std::string("the handle is ") + kind_name(handle->magic) +
+                                         ", it must be " + kind_name(kind)};
+  });
+}
+
+}  // namespace delos::c
+
+using delos::c::call;
+
+int delos_abi_version(void) { return DELOS_ABI_VERSION; }
+const char* delos_version(void) { return delos::version(); }
+
+const char* delos_status_name(int status) {
+  switch (status) {
+    case DELOS_SUCCESS:
+      return "success";
+    case DELOS_ERROR_STATE:
+      return "state";
+    case DELOS_ERROR_ARGUMENT:
+      return "argument";
+    case DELOS_ERROR_CONFIG:
+      return "config";
+    case DELOS_ERROR_INPUT:
+      return "input";
+    case DELOS_ERROR_OUTPUT:
+      return "output";
+    case DELOS_ERROR_RESOURCE:
+      return "resource";
+    case DELOS_ERROR_INTERNAL:
+      return "internal";
+    case DELOS_ERROR_QUALITY:
+      return "quality";
+    case DELOS_ERROR_CANCELLED:
+      return "cancelled";
+    default:
+      return "unknown";
+  }
+}
+
+const char* delos_last_error(const void* handle) {
+  if (handle == nullptr) return "the handle is NULL: the call that should have made it failed";
+  const auto* const known = static_cast<const delos::c::Handle*>(handle);
+  if (!delos::c::is_known(known->magic)) return "this is no handle of delos";
+  return known->error.c_str();
+}
+
+int delos_context_create(delos_context** context) {
+  if (context == nullptr) return DELOS_ERROR_ARGUMENT;
+  *context = new (std::nothrow) delos_context;
+  return *context == nullptr ? DELOS_ERROR_RESOURCE : DELOS_SUCCESS;
+}
+
+int delos_context_destroy(delos_context* context) {
+  if (context == nullptr) return DELOS_SUCCESS;
+  return call(context, __func__, [&] {
+    // Best effort: freed memory should not look like a context. Volatile, or it is optimised away.
+    *const_cast<volatile std::uint64_t*>(&context->magic) = 0;
+    delete context;
+  });
+}
+
+int delos_context_set_threads(delos_context* context, int n_threads) {
+  return call(context, __func__, [&] {
+    if (n_threads < 0) {
+      throw delos::c::Refusal{DELOS_ERROR_ARGUMENT, "n_threads = " + std::to_string(n_threads) +
+                                                        ": must be >= 0, 0 = as configured"};
+    }
+    context->n_threads = n_threads;
+  });
+}
+
+int delos_context_set_progress(delos_context* context, delos_progress_callback callback,
+                               void* user_data) {
+  return call(context, __func__, [&] {
+    context->on_progress = callback;
+    context->progress_data = user_data;
+  });
+}
+
+int delos_context_set_log(delos_context* context, delos_log_callback callback, void* user_data) {
+  return call(context, __func__, [&] {
+    context->on_log = callback;
+    context->log_data = user_data;
+  });
+}
+
+int delos_context_cancel(delos_context* context) {
+  return call(context, __func__, [&] { context->cancel = true; });
+}

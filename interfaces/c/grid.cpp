@@ -1,0 +1,212 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "handle.hpp"
+
+using delos::c::call;
+using delos::c::need;
+
+namespace {
+
+delos::GenerateOptions options_of(delos_context* context) {
+  delos::GenerateOptions options;
+  options.threads = context->n_threads;
+  options.cancel = &context->cancel;
+  if (context->on_progress != nullptr) {
+    options.progress = [context](const delos::Progress& state) {
+      const delos_progress progress{state.phase.c_str(), state.done, state.total, state.elapsed_s};
+      context->on_progress(&progress, context->progress_data);
+    };
+  }
+  if (context->on_log != nullptr) {
+    options.log = [context](delos::LogLevel level, const std::string& message) {
+      context->on_log(static_cast<int>(level), message.c_str(), context->log_data);
+    };
+  }
+  return options;
+}
+
+/// A request to stop is used up by the call that it stops, or that ended before.
+struct CancelReset {
+  explicit CancelReset(std::atomic<bool>& requested) : flag(requested) {}
+  CancelReset(const CancelReset&) = delete;
+  CancelReset& operator=(const CancelReset&) = delete;
+  ~CancelReset() { flag = false; }
+  std::atomic<bool>& flag;
+};
+
+void need_config(const delos_config* config) {
+  need(config, "config");
+  if (config->magic != delos_config::kMagic) {
+    throw delos::c::Refusal{DELOS_ERROR_STATE, "config is no configuration, or destroyed"};
+  }
+}
+
+template <class Number>
+void hand_out(std::span<const Number> array, const Number** values, int64_t* size) {
+  *values = array.data();
+  if (size != nullptr) *size = static_cast<int64_t>(array.size());
+}
+
+delos_worst plain(const delos::Worst& worst) {
+  return {worst.value, worst.id, {worst.cells[0], worst.cells[1]}, worst.lon_rad, worst.lat_rad};
+}
+
+}  // namespace
+
+int delos_generate(delos_context* context, const delos_config* config, delos_grid** grid) {
+  if (grid != nullptr) *grid = nullptr;
+  return call(context, __func__, [&] {
+    need_config(config);
+    need(grid, "grid");
+    const CancelReset reset(context->cancel);
+    context->grids.push_back(
+        std::make_unique<delos_grid>(delos::generate(*config->config, options_of(context))));
+    *grid = context->grids.back().get();
+  });
+}
+
+int delos_grid_destroy(delos_grid* grid) {
+  if (grid == nullptr) return DELOS_SUCCESS;
+  return call(grid, __func__, [&] {
+    grid->magic = delos::c::kDeadMagic;
+    grid->grid.reset();
+    grid->paths = std::string();
+  });
+}
+
+// NOLINTBEGIN(bugprone-macro-parentheses): a type can't stand in them
+#define DELOS_NUMBER(name, type)                               \
+  int delos_grid_##name(const delos_grid* grid, type* value) { \
+    return call(grid, __func__, [&] {                          \
+      need(value, "the result");                               \
+      *value = grid->grid->name();                             \
+    });                                                        \
+  }
+DELOS_NUMBER(n_cells, int64_t)
+DELOS_NUMBER(n_edges, int64_t)
+DELOS_NUMBER(n_vertices, int64_t)
+DELOS_NUMBER(max_edges, int64_t)
+DELOS_NUMBER(generation, int64_t)
+DELOS_NUMBER(scale_m, double)
+#undef DELOS_NUMBER
+// NOLINTEND(bugprone-macro-parentheses)
+
+#define DELOS_TEXT(name)                                             \
+  int delos_grid_##name(const delos_grid* grid, const char** text) { \
+    if (text != nullptr) *text = nullptr;                            \
+    return call(grid, __func__, [&] {                                \
+      need(text, "text");                                            \
+      *text = grid->grid->name().c_str();                            \
+    });                                                              \
+  }
+DELOS_TEXT(digest)
+DELOS_TEXT(config_text)
+DELOS_TEXT(report)
+DELOS_TEXT(report_json)
+#undef DELOS_TEXT
+
+#define DELOS_VECTOR(name)                                          \
+  int delos_grid_##name(const delos_grid* grid, double vector[3]) { \
+    return call(grid, __func__, [&] {                               \
+      need(vector, #name);                                          \
+      const std::array<double, 3> value = grid->grid->name();       \
+      std::copy(value.begin(), value.end(), vector);                \
+    });                                                             \
+  }
+DELOS_VECTOR(radii_m)
+DELOS_VECTOR(centre_m)
+#undef DELOS_VECTOR
+
+#define DELOS_ARRAY(name, type)                                                       \
+  int delos_grid_##name(const delos_grid* grid, const type** values, int64_t* size) { \
+    if (values != nullptr) *values = nullptr;                                         \
+    return call(grid, __func__, [&] {                                                 \
+      need(values, "values");                                                         \
+      hand_out(grid->grid->name(), values, size);                                     \
+    });                                                                               \
+  }
+DELOS_ARRAY(cell_position, double)
+DELOS_ARRAY(edge_position, double)
+DELOS_ARRAY(vertex_position, double)
+DELOS_ARRAY(cell_lon_lat, double)
+DELOS_ARRAY(edge_lon_lat, double)
+DELOS_ARRAY(vertex_lon_lat, double)
+DELOS_ARRAY(cell_offsets, int64_t)
+DELOS_ARRAY(edges_on_cell, int32_t)
+DELOS_ARRAY(vertices_on_cell, int32_t)
+DELOS_ARRAY(cells_on_cell, int32_t)
+DELOS_ARRAY(cells_on_edge, int32_t)
+DELOS_ARRAY(vertices_on_edge, int32_t)
+DELOS_ARRAY(cells_on_vertex, int32_t)
+DELOS_ARRAY(edges_on_vertex, int32_t)
+DELOS_ARRAY(edge_offsets, int64_t)
+DELOS_ARRAY(edges_on_edge, int32_t)
+DELOS_ARRAY(weights_on_edge, double)
+DELOS_ARRAY(cell_area_m2, double)
+DELOS_ARRAY(cell_spacing_m, double)
+DELOS_ARRAY(edge_spacing_m, double)
+DELOS_ARRAY(triangle_area_m2, double)
+DELOS_ARRAY(kite_area_m2, double)
+DELOS_ARRAY(cell_distance_m, double)
+DELOS_ARRAY(vertex_distance_m, double)
+DELOS_ARRAY(edge_angle_rad, double)
+#undef DELOS_ARRAY
+
+int delos_grid_quality(const delos_grid* grid, delos_quality* quality) {
+  return call(grid, __func__, [&] {
+    need(quality, "quality");
+    const delos::Quality& own = grid->grid->quality();
+    *quality = {.n_obtuse = own.n_obtuse,
+                .min_angle_deg = own.min_angle_deg,
+                .max_angle_deg = own.max_angle_deg,
+                .min_area_length = own.min_area_length,
+                .mean_area_length = own.mean_area_length,
+                .min_relative_edge = own.min_relative_edge,
+                .max_relative_edge = own.max_relative_edge,
+                .min_dual_ratio = own.min_dual_ratio,
+                .degree_6_fraction = own.degree_6_fraction};
+  });
+}
+
+int delos_grid_certificate(const delos_grid* grid, delos_certificate* certificate) {
+  return call(grid, __func__, [&] {
+    need(certificate, "certificate");
+    const delos::Certificate& own = grid->grid->certificate();
+    *certificate = {.well_centred = own.well_centred ? 1 : 0,
+                    .spacing_kept = own.spacing_kept ? 1 : 0,
+                    .well_centred_fraction = own.well_centred_fraction,
+                    .n_obtuse = own.n_obtuse,
+                    .relative_edge_bound = own.relative_edge_bound,
+                    .relative_edge_min = plain(own.relative_edge_min),
+                    .dual_ratio_min = plain(own.dual_ratio_min),
+                    .stagger_max = plain(own.stagger_max),
+                    .angle_max_deg = plain(own.angle_max_deg)};
+  });
+}
+
+#define DELOS_FILE(name)                                            \
+  int delos_grid_##name(const delos_grid* grid, const char* path) { \
+    return call(grid, __func__, [&] {                               \
+      need(path, "path");                                           \
+      grid->grid->name(path);                                       \
+    });                                                             \
+  }
+DELOS_FILE(write_mpas)
+DELOS_FILE(write_ugrid_cells)
+DELOS_FILE(write_ugrid_triangles)
+DELOS_FILE(write_report)
+#undef DELOS_FILE
+
+int delos_grid_write_outputs(delos_grid* grid, const char* directory, const char** paths) {
+  if (paths != nullptr) *paths = nullptr;
+  return call(grid, __func__, [&] {
+    std::string all;
+    for (const std::string& path : grid->grid->write_outputs(directory == nullptr ? "" : directory))
+      all += path + "\n";
+    grid->paths = std::move(all);
+    if (paths != nullptr) *paths = grid->paths.c_str();
+  });
+}
