@@ -1,0 +1,221 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/component.hpp"
+
+#include <array>
+#include <utility>
+#include <vector>
+
+#include "core/error.hpp"
+#include "core/types.hpp"
+#include "time/iso8601.hpp"
+
+namespace delos {
+namespace {
+
+constexpr double kTurn_deg = 360.0;
+
+/// What the engine can use; held for its host in this version.
+std::vector<FieldTraits> import_traits() {
+  return {{.name = "surface_eastward_sea_water_velocity",
+           .standard_name = "surface_eastward_sea_water_velocity",
+           .units = "m s-1",
+           .long_name = "eastward velocity of the surface water"},
+          {.name = "surface_northward_sea_water_velocity",
+           .standard_name = "surface_northward_sea_water_velocity",
+           .units = "m s-1",
+           .long_name = "northward velocity of the surface water"},
+          {.name = "eddy_kinetic_energy",
+           .standard_name = "eddy_kinetic_energy",
+           .units = "m2 s-2",
+           .long_name = "kinetic energy of the surface eddies, a mass unit's"}};
+}
+
+// The exports, in the order of their declaration.
+enum Export : std::size_t { area, spacing, longitude, latitude, generation_number, n_exports };
+
+std::vector<FieldTraits> export_traits() {
+  return {{.name = "cell_area",
+           .standard_name = "cell_area",
+           .units = "m2",
+           .long_name = "area of the Voronoi cell"},
+          {.name = "cell_spacing",
+           .standard_name = "",
+           .units = "m",
+           .long_name = "distance to the neighbours that was asked for"},
+          {.name = "cell_longitude",
+           .standard_name = "longitude",
+           .units = "degrees_east",
+           .long_name = "longitude of the cell's generator"},
+          {.name = "cell_latitude",
+           .standard_name = "latitude",
+           .units = "degrees_north",
+           .long_name = "latitude of the cell's generator, of the configured kind"},
+          {.name = "grid_generation",
+           .standard_name = "",
+           .units = "1",
+           .long_name = "number of the grid, which grows whenever it is made anew",
+           .location = Location::grid}};
+}
+
+void declare_all(State& state, const std::vector<FieldTraits>& fields) {
+  for (const FieldTraits& traits : fields) state.declare(traits);
+}
+
+/// A grid with what only the exports need; they keep it together.
+struct Exported {
+  std::shared_ptr<const Product> product;
+  std::vector<double> lon_deg, lat_deg;
+  double generation = 0.0;
+};
+
+std::shared_ptr<const Exported> exported(std::shared_ptr<const Product> product,
+                                         std::int64_t generation) {
+  auto out = std::make_shared<Exported>();
+  const std::vector<LonLat>& places = product->grid->cell_lon_lat;
+  out->lon_deg.reserve(places.size());
+  out->lat_deg.reserve(places.size());
+  for (const LonLat& place : places) {
+    const double lon_deg = place.lon_rad * kDegPerRad;
+    // The product may round up to the whole turn.
+    out->lon_deg.push_back(lon_deg < kTurn_deg ? lon_deg : 0.0);
+    out->lat_deg.push_back(place.lat_rad * kDegPerRad);
+  }
+  out->generation = static_cast<double>(generation);
+  out->product = std::move(product);
+  return out;
+}
+
+void attach_exports(const State& exports, const std::shared_ptr<const Exported>& values,
+                    std::int64_t generation) noexcept {
+  const Grid& grid = *values->product->grid;
+  std::array<std::span<const double>, n_exports> spans;
+  spans[area] = grid.cell_area_m2;
+  spans[spacing] = grid.cell_spacing_m;
+  spans[longitude] = values->lon_deg;
+  spans[latitude] = values->lat_deg;
+  spans[generation_number] = {&values->generation, 1};
+  for (std::size_t i = 0; i < spans.size(); ++i) {
+    exports.items()[i]->attach(
+        {generation, static_cast<std::int64_t>(spans[i].size()), spans[i], values});
+  }
+}
+
+/// The call that leads on from a stage.
+const char* expected_call(Stage stage) {
+  switch (stage) {
+    case Stage::created:
+    case Stage::finalized:
+      return "initialize(advertise)";
+    case Stage::advertised:
+      return "initialize(realize)";
+    case Stage::realized:
+    case Stage::running:
+      return "run or finalize";
+  }
+  return "none";
+}
+
+}  // namespace
+
+const char* to_string(Stage stage) {
+  switch (stage) {
+    case Stage::created:
+      return "created";
+    case Stage::advertised:
+      return "advertised";
+    case Stage::realized:
+      return "realized";
+    case Stage::running:
+      return "running";
+    case Stage::finalized:
+      return "finalized";
+  }
+  return "unknown";
+}
+
+Component::Component(Settings settings, ComponentOptions options)
+    : settings_(std::move(settings)),
+      options_(std::move(options)),
+      imports_(std::make_shared<State>(Intent::imports)),
+      exports_(std::make_shared<State>(Intent::exports)) {}
+
+Component::~Component() { release_fields(); }
+
+void Component::refuse(const char* call) const {
+  throw Error(ErrorKind::state, text(call, " was called on a component that is ", to_string(stage_),
+                                     "; expected: ", expected_call(stage_)));
+}
+
+void Component::advertise() {
+  if (stage_ == Stage::advertised) return;
+  if (stage_ != Stage::created && stage_ != Stage::finalized) refuse("initialize(advertise)");
+  if (stage_ == Stage::created) {
+    State imports(Intent::imports);
+    State exports(Intent::exports);
+    declare_all(imports, import_traits());
+    declare_all(exports, export_traits());
+    *imports_ = std::move(imports);
+    *exports_ = std::move(exports);
+  }
+  stage_ = Stage::advertised;
+}
+
+void Component::realize() {
+  if (stage_ == Stage::realized) return;
+  if (stage_ != Stage::advertised) refuse("initialize(realize)");
+  parallel::Executor exec(options_.threads > 0 ? options_.threads : settings_.threads);
+  Monitor monitor(options_.on_progress, options_.on_log, options_.cancel);
+  Context context{exec, monitor};
+  auto product = std::make_shared<const Product>(generate(context, settings_, {}));
+  const std::int64_t number = last_generation_ + 1;
+  const auto values = exported(product, number);
+
+  // Nothing throws from here on.
+  const std::int64_t n_cells = product->grid->n_cells();
+  for (const auto& item : imports_->items()) item->attach({number, n_cells, {}, nullptr});
+  attach_exports(*exports_, values, number);
+  product_ = std::move(product);
+  last_generation_ = number;
+  stage_ = Stage::realized;
+}
+
+void Component::run(const Time& from, const Time& until) {
+  if (stage_ != Stage::realized && stage_ != Stage::running) refuse("run");
+  DELOS_CHECK(until > from, ErrorKind::state, "run from ", iso_text(from), " until ",
+              iso_text(until), ": the end must be later");
+  std::optional<Clock> clock = clock_;
+  if (!clock) clock = Clock({.start = from, .step = until - from});
+  DELOS_CHECK(clock->current().calendar() == from.calendar() && clock->current() == from,
+              ErrorKind::state, "run from ", iso_text(from), " (", to_string(from.calendar()),
+              "), but the component stands at ", iso_text(clock->current()), " (",
+              to_string(clock->current().calendar()), "): run every step once, in order");
+  clock->advance(until - from);
+
+  clock_ = std::move(clock);
+  for (const auto& item : exports_->items()) item->stamp(until);
+  stage_ = Stage::running;
+}
+
+void Component::finalize() {
+  if (stage_ == Stage::finalized) return;
+  if (stage_ == Stage::created) refuse("finalize");
+  release_fields();
+  product_.reset();
+  clock_.reset();
+  stage_ = Stage::finalized;
+}
+
+std::int64_t Component::generation() const { return product_ ? last_generation_ : 0; }
+
+std::shared_ptr<const Product> Component::product() const {
+  if (!product_) refuse("grid");
+  return product_;
+}
+
+void Component::release_fields() noexcept {
+  for (const auto& state : {imports_, exports_}) {
+    for (const auto& item : state->items()) item->release();
+  }
+}
+
+}  // namespace delos

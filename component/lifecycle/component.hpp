@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The engine behind every component interface, in ESMF's phases: advertise, realize, run, finalize.
+// No threads outlive a phase, nothing is printed or written, nothing is shared between instances.
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "core/progress.hpp"
+#include "lifecycle/fields.hpp"
+#include "lifecycle/generate.hpp"
+#include "lifecycle/settings.hpp"
+#include "time/clock.hpp"
+
+namespace delos {
+
+enum class Stage { created, advertised, realized, running, finalized };
+const char* to_string(Stage stage);
+
+/// What a component lives with beside its settings; the callbacks are called in realize.
+struct ComponentOptions {
+  int threads = 0;  ///< 0: what the settings say
+  ProgressCallback on_progress = {};
+  LogCallback on_log = {};
+  const std::atomic<bool>* cancel = nullptr;
+};
+
+/// Every phase leaves the component as it was when it throws, and a phase that is done already does
+/// nothing. A call in the wrong order is an Error(state) that says which call is expected.
+/// One thread at a time.
+class Component {
+ public:
+  Component(Settings settings, ComponentOptions options);
+  /// Handles of fields that outlive it fail with Error(state).
+  ~Component();
+  Component(const Component&) = delete;
+  Component& operator=(const Component&) = delete;
+
+  /// Declares the fields of both states; first, or after finalize.
+  void advertise();
+  /// Makes the grid: everything that generate() throws. Exports have values from here on.
+  void realize();
+  /// From one time to a later one: the component's clock goes there and exports are stamped with
+  /// it. The first run starts the clock; a later `from` other than its time is an Error(state).
+  void run(const Time& from, const Time& until);
+  /// Gives the grid back; generations go on counting when the component starts again.
+  void finalize();
+
+  Stage stage() const { return stage_; }
+  const Settings& settings() const { return settings_; }
+  /// Of the grid; 0 without one.
+  std::int64_t generation() const;
+  /// Error(state) without a grid.
+  std::shared_ptr<const Product> product() const;
+  /// Set by the first run.
+  const std::optional<Clock>& clock() const { return clock_; }
+  /// Empty before advertise.
+  const std::shared_ptr<State>& imports() const { return imports_; }
+  const std::shared_ptr<State>& exports() const { return exports_; }
+
+ private:
+  [[noreturn]] void refuse(const char* call) const;
+  void release_fields() noexcept;
+
+  Settings settings_;
+  ComponentOptions options_;
+  Stage stage_ = Stage::created;
+  std::int64_t last_generation_ = 0;
+  std::shared_ptr<const Product> product_;
+  std::optional<Clock> clock_;
+  std::shared_ptr<State> imports_;
+  std::shared_ptr<State> exports_;
+};
+
+}  // namespace delos
