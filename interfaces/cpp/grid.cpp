@@ -93,17 +93,17 @@ void write_file(const Product& product, FileKind kind, const std::string& path) 
 
 }  // namespace
 
-Grid GridAccess::make(Product product) {
-  auto impl = std::make_shared<Grid::Impl>();
-  const auto& offsets = product.grid->edges_on_cell.offsets;
+Grid GridAccess::make(std::shared_ptr<const Product> product, std::int64_t generation) {
+  auto impl = std::make_shared<Grid::Impl>(std::move(product), generation);
+  const Product& own = impl->product;
+  const auto& offsets = own.grid->edges_on_cell.offsets;
   for (std::size_t i = 1; i < offsets.size(); ++i) {
     impl->max_edges = std::max(impl->max_edges, offsets[i] - offsets[i - 1]);
   }
-  impl->quality = summary(product.report.quality);
-  impl->certificate = public_certificate(product);
-  impl->report = report_text(product.report);
-  impl->report_json = report_json(product.report);
-  impl->product = std::move(product);
+  impl->quality = summary(own.report.quality);
+  impl->certificate = public_certificate(own);
+  impl->report = report_text(own.report);
+  impl->report_json = report_json(own.report);
   return Grid(std::move(impl));
 }
 

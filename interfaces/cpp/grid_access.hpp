@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // How the adapters make a Grid.
+#include <memory>
 #include <utility>
 
 #include "delos/grid.hpp"
@@ -9,8 +10,11 @@
 namespace delos::api {
 
 struct Grid::Impl {
-  Product product;  // with its dual
-  std::int64_t generation = 1;
+  Impl(std::shared_ptr<const Product> of_grid, std::int64_t number)
+      : owner(std::move(of_grid)), product(*owner), generation(number) {}
+  std::shared_ptr<const Product> owner;
+  const Product& product;  // with its dual
+  std::int64_t generation;
   std::int64_t max_edges = 0;
   Quality quality{};
   Certificate certificate{};
@@ -18,7 +22,7 @@ struct Grid::Impl {
 };
 
 struct GridAccess {
-  static Grid make(Product product);
+  static Grid make(std::shared_ptr<const Product> product, std::int64_t generation);
 };
 
 }  // namespace delos::api

@@ -5,8 +5,13 @@
 //   const auto config = delos::Config::from_file("world_ocean.yaml");
 //   const delos::Grid grid = delos::generate(config);
 //   for (double area_m2 : grid.cell_area_m2()) ...
-#include "delos/config.hpp"    // IWYU pragma: export
-#include "delos/error.hpp"     // IWYU pragma: export
-#include "delos/generate.hpp"  // IWYU pragma: export
-#include "delos/grid.hpp"      // IWYU pragma: export
-#include "delos/version.hpp"   // IWYU pragma: export
+#include "delos/clock.hpp"      // IWYU pragma: export
+#include "delos/component.hpp"  // IWYU pragma: export
+#include "delos/config.hpp"     // IWYU pragma: export
+#include "delos/error.hpp"      // IWYU pragma: export
+#include "delos/field.hpp"      // IWYU pragma: export
+#include "delos/generate.hpp"   // IWYU pragma: export
+#include "delos/grid.hpp"       // IWYU pragma: export
+#include "delos/state.hpp"      // IWYU pragma: export
+#include "delos/time.hpp"       // IWYU pragma: export
+#include "delos/version.hpp"    // IWYU pragma: export

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A clock with alarms, with the semantics of ESMF's.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "delos/export.hpp"
+#include "delos/time.hpp"
+
+namespace delos::api {
+
+struct ClockAccess;
+struct ClockImpl;
+
+struct AlarmOptions {
+  /// When it rings first; by default an interval after the clock's current time. One of ring_time
+  /// and interval must be given.
+  std::optional<Time> ring_time = {};
+  /// From one ring time to the next, forward; without it the alarm rings once.
+  std::optional<TimeInterval> interval = {};
+  /// Rings until switched off; else for ring_duration.
+  bool sticky = true;
+  /// Zero is until the clock's next step. Only for alarms that are not sticky.
+  TimeInterval ring_duration = {};
+  bool enabled = true;
+};
+
+/// A handle of an alarm; it keeps its clock's alarms, and copies are the same alarm.
+class DELOS_API Alarm {
+ public:
+  /// In its clock, from 0.
+  int id() const { return id_; }
+  bool is_ringing() const;
+  /// Whether it rang right after the clock's last step but one.
+  bool was_ringing() const;
+  bool is_enabled() const;
+  bool is_sticky() const;
+  /// The next time to ring.
+  Time ring_time() const;
+  /// Zero when it rings once.
+  TimeInterval interval() const;
+
+  void enable();
+  /// Also stops the ringing.
+  void disable();
+  /// Error(state) when it is disabled.
+  void ringer_on();
+  void ringer_off();
+
+ private:
+  friend class Clock;
+  Alarm(std::shared_ptr<ClockImpl> clock, int id);
+  std::shared_ptr<ClockImpl> clock_;
+  int id_;
+};
+
+struct ClockOptions {
+  Time start;
+  /// Without it the clock is never done.
+  std::optional<Time> stop = {};
+  /// Forward; may have months.
+  TimeInterval step = {};
+};
+
+/// A value: copies share nothing, not even alarms. What throws leaves it as it was.
+class DELOS_API Clock {
+ public:
+  /// Error(config) for a step that is not forward, a stop not after start, or of another calendar.
+  explicit Clock(const ClockOptions& options);
+  Clock(const Clock& other);
+  Clock(Clock&& other) noexcept;
+  Clock& operator=(const Clock& other);
+  Clock& operator=(Clock&& other) noexcept;
+  ~Clock();
+
+  Time start() const;
+  std::optional<Time> stop() const;
+  TimeInterval step() const;
+  Time current() const;
+  /// The current time before the last step; start before the first.
+  Time previous() const;
+  /// The current time after the next step.
+  Time next() const;
+  std::int64_t advance_count() const;
+  /// Whether stop is reached or passed.
+  bool is_done() const;
+
+  /// After start and not before the current time; without a value the clock is never done.
+  void set_stop(const std::optional<Time>& stop);
+  void set_step(const TimeInterval& step);
+  /// One step; then all alarms are checked. Beyond stop, too.
+  void advance();
+
+  /// Error(config) for options that contradict each other.
+  Alarm add_alarm(const AlarmOptions& options);
+  int n_alarms() const;
+  /// Error(state) for an unknown id.
+  Alarm alarm(int id) const;
+  /// Ids in ascending order.
+  std::vector<int> ringing_alarms() const;
+
+ private:
+  friend struct ClockAccess;
+  std::shared_ptr<ClockImpl> impl_;
+};
+
+}  // namespace delos::api
+
+#ifndef DELOS_BUILDING_LIBRARY
+namespace delos {
+using api::Alarm;
+using api::AlarmOptions;
+using api::Clock;
+using api::ClockOptions;
+}  // namespace delos
+#endif

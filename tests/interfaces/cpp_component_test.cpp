@@ -1,0 +1,415 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Hosts of the component, well behaved and not.
+#include <doctest/doctest.h>
+#include <fcntl.h>
+#include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+#include <unistd.h>
+
+#include <array>
+#include <cfenv>
+#include <chrono>
+#include <clocale>
+#include <csignal>
+#include <cstdio>
+#include <delos/delos.hpp>
+#include <functional>
+#include <locale>
+#include <thread>
+#ifdef _OPENMP
+#include <omp.h>
+#endif
+
+namespace {
+
+delos::Config uniform(const char* spacing) {
+  auto config = delos::Config::from_text(
+      "sizing: {sources: [{type: constant, spacing: 600 km}]}\n"
+      "refine: {tile_vertices: 500}\n");
+  config.set("sizing.sources.0.spacing", spacing);
+  return config;
+}
+
+delos::Clock daily() {
+  return delos::Clock({.start = delos::Time::parse("2000-02-27"),
+                       .stop = delos::Time::parse("2000-03-02"),
+                       .step = delos::TimeInterval::of_days(1)});
+}
+
+void run_all(delos::Component& component, delos::Clock& clock) {
+  for (; !clock.is_done(); clock.advance()) {
+    component.run(component.import_state(), component.export_state(), clock);
+  }
+}
+
+/// The digest of the grid after a whole life, initialize to the last step.
+std::string life(const delos::Config& config, int threads) {
+  delos::Component component(config, {.threads = threads});
+  component.initialize();
+  auto clock = daily();
+  run_all(component, clock);
+  const delos::Grid grid = component.grid();
+  component.finalize();
+  return grid.digest();
+}
+
+/// action() must throw Error(state) whose message holds the parts.
+void refused(const std::function<void()>& action, std::initializer_list<const char*> parts) {
+  std::string message;
+  try {
+    action();
+  } catch (const delos::Error& error) {
+    message = error.what();
+    CHECK(error.kind() == delos::ErrorKind::state);
+  }
+  CAPTURE(message);
+  REQUIRE_MESSAGE(!message.empty(), "no error was thrown");
+  for (const char* const part : parts) CHECK(message.find(part) != std::string::npos);
+}
+
+/// What goes to a file descriptor while it lives.
+class Capture {
+ public:
+  explicit Capture(int descriptor)
+      : descriptor_(descriptor), saved_(dup(descriptor)), file_(std::tmpfile()) {
+    std::fflush(nullptr);
+    dup2(fileno(file_), descriptor_);
+  }
+  ~Capture() {
+    restore();
+    std::fclose(file_);
+  }
+  Capture(const Capture&) = delete;
+  Capture& operator=(const Capture&) = delete;
+  long n_bytes() {
+    restore();
+    return static_cast<long>(lseek(fileno(file_), 0, SEEK_END));
+  }
+
+ private:
+  void restore() {
+    if (saved_ < 0) return;
+    std::fflush(nullptr);
+    dup2(saved_, descriptor_);
+    close(saved_);
+    saved_ = -1;
+  }
+  int descriptor_;
+  int saved_;
+  std::FILE* file_;
+};
+
+constexpr std::array kSignals = {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGPIPE, SIGHUP, SIGUSR1};
+
+/// What the process does on each of kSignals.
+std::vector<std::pair<void (*)(int), int>> actions() {
+  std::vector<std::pair<void (*)(int), int>> out;
+  for (const int number : kSignals) {
+    struct sigaction action {};
+    sigaction(number, nullptr, &action);
+    out.emplace_back(action.sa_handler, action.sa_flags);
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("a component lives through its phases and its grid is that of generate") {
+  const auto config = uniform("600 km");
+  delos::Component component(config);
+  CHECK(component.export_state().size() == 0);
+  component.initialize(delos::InitializePhase::advertise);
+  CHECK(component.export_state().names() ==
+        std::vector<std::string>{"cell_area", "cell_spacing", "cell_longitude", "cell_latitude",
+                                 "grid_generation"});
+  CHECK(component.generation() == 0);
+  component.initialize(delos::InitializePhase::realize);
+  CHECK(component.generation() == 1);
+  const delos::Grid grid = component.grid();
+  CHECK(grid.digest() == delos::generate(config).digest());
+  const delos::Field area = component.export_state().field("cell_area");
+  CHECK(area.data().data() == grid.cell_area_m2().data());
+  CHECK(area.units() == "m2");
+  CHECK(area.location() == delos::Location::cell);
+  CHECK(std::string(delos::to_string(area.location())) == "cell");
+  CHECK(area.n_points() == grid.n_cells());
+
+  auto clock = daily();
+  CHECK_FALSE(component.current_time());
+  run_all(component, clock);
+  CHECK(clock.advance_count() == 4);
+  CHECK(component.current_time()->text() == "2000-03-02T00:00:00");
+  CHECK(*area.time_stamp() == clock.current());
+  component.finalize();
+  CHECK(grid.cell_area_m2().size() == static_cast<std::size_t>(grid.n_cells()));
+}
+
+TEST_CASE("every call in a wrong order is Error(state) that says what is expected") {
+  const auto clock = daily();
+  delos::Component component(uniform("1500 km"));
+  const delos::State imports = component.import_state();
+  const delos::State exports = component.export_state();
+  const auto advertise = [&] { component.initialize(delos::InitializePhase::advertise); };
+  const auto realize = [&] { component.initialize(delos::InitializePhase::realize); };
+  const auto run = [&] { component.run(imports, exports, clock); };
+  const auto finalize = [&] { component.finalize(); };
+  const auto grid = [&] { static_cast<void>(component.grid()); };
+
+  for (const auto& call : std::vector<std::function<void()>>{realize, run, finalize, grid}) {
+    refused(call, {"created", "expected: initialize(advertise)"});
+  }
+  advertise();
+  for (const auto& call : std::vector<std::function<void()>>{run, grid}) {
+    refused(call, {"advertised", "expected: initialize(realize)"});
+  }
+  realize();
+  refused(advertise, {"realized", "expected: run or finalize"});
+  component.initialize();
+  run();
+  refused(run, {"stands at 2000-02-28", "once"});
+  refused(advertise, {"running", "expected: run or finalize"});
+  refused(realize, {"running", "expected: run or finalize"});
+  refused([&] { component.initialize(); }, {"running", "run or finalize"});
+  finalize();
+  finalize();
+  for (const auto& call : std::vector<std::function<void()>>{realize, run, grid}) {
+    refused(call, {"finalized", "expected: initialize(advertise)"});
+  }
+}
+
+TEST_CASE("run takes the component's own states, the right way round") {
+  delos::Component component(uniform("1500 km"));
+  delos::Component other(uniform("1500 km"));
+  component.initialize();
+  const auto clock = daily();
+  refused([&] { component.run(component.export_state(), component.import_state(), clock); },
+          {"import state", "intent export"});
+  refused([&] { component.run(component.import_state(), other.export_state(), clock); },
+          {"export state", "own export_state()"});
+  CHECK_FALSE(component.current_time());
+}
+
+TEST_CASE("fields of an older generation fail and name both generations") {
+  delos::Component component(uniform("1500 km"));
+  component.initialize(delos::InitializePhase::advertise);
+  const delos::Field early = component.export_state().field("cell_area");
+  component.initialize();
+  refused([&] { static_cast<void>(early.data()); }, {"cell_area", "generation 0", "generation 1"});
+  const delos::Field area = component.export_state().field("cell_area");
+  delos::Field energy = component.import_state().field("eddy_kinetic_energy");
+  const std::vector<double> values(static_cast<std::size_t>(area.n_points()), 0.01);
+  energy.bind(values);
+  const delos::Grid grid = component.grid();
+  component.finalize();
+  CHECK_FALSE(area.has_data());
+  refused([&] { static_cast<void>(area.data()); }, {"generation 1", "generation 0", "finalized"});
+  component.initialize();
+  CHECK(component.generation() == 2);
+  CHECK(component.grid().generation() == 2);
+  CHECK(grid.generation() == 1);
+  CHECK(component.grid().digest() == grid.digest());
+  CHECK_FALSE(area.has_data());
+  refused([&] { static_cast<void>(area.data()); }, {"generation 1", "generation 2"});
+  refused([&] { energy.bind(values); }, {"eddy_kinetic_energy", "generation 1", "generation 2"});
+  refused([&] { energy.store(values); }, {"generation 1", "generation 2"});
+  refused([&] { energy.stamp(delos::Time::parse("2000-01-01")); }, {"generation 1"});
+  CHECK(component.export_state().field("cell_area").data().size() == values.size());
+}
+
+TEST_CASE("fields outlive their component without values") {
+  std::optional<delos::Component> component(uniform("1500 km"));
+  component->initialize();
+  const delos::Field area = component->export_state().field("cell_area");
+  const delos::State exports = component->export_state();
+  component.reset();
+  refused([&] { static_cast<void>(area.data()); }, {"generation 1"});
+  refused([&] { static_cast<void>(exports.field("cell_area").data()); }, {"no grid"});
+}
+
+TEST_CASE("imports are the host's own memory, or a copy, on cells or on a lat-lon grid") {
+  delos::Component component(uniform("1500 km"));
+  component.initialize();
+  const delos::State imports = component.import_state();
+  delos::Field u = imports.field("surface_eastward_sea_water_velocity");
+  CHECK(u.units() == "m s-1");
+  std::vector<double> values(static_cast<std::size_t>(u.n_points()), 0.1);
+  u.bind(values);
+  CHECK(u.data().data() == values.data());
+  u.store(values);
+  CHECK(u.data().data() != values.data());
+  u.stamp(delos::Time::parse("2000-01-01"));
+  CHECK(u.is_updated());
+  delos::Field energy = imports.field("eddy_kinetic_energy");
+  energy.place_on_lat_lon({0.0, 90.0, 180.0, 270.0}, {-60.0, 0.0, 60.0});
+  CHECK(energy.n_points() == 12);
+  values.resize(12);
+  energy.bind(values);
+  CHECK(energy.has_data());
+  CHECK(energy.location() == delos::Location::lat_lon);
+  delos::Field area = component.export_state().field("cell_area");
+  refused([&] { area.bind(area.data()); }, {"cell_area", "only imports"});
+  refused([&] { area.stamp(delos::Time::parse("2000-01-01")); }, {"belongs to the component"});
+  CHECK_THROWS_AS(u.bind(values), delos::Error);
+}
+
+TEST_CASE("absent items are listed, and ESMF's codes are ESMF's") {
+  delos::Component component(uniform("1500 km"));
+  CHECK_FALSE(component.import_state().contains("eddy_kinetic_energy"));
+  refused([&] { static_cast<void>(component.import_state().field("eddy_kinetic_energy")); },
+          {"empty", "initialize(advertise)"});
+  component.initialize(delos::InitializePhase::advertise);
+  CHECK(component.import_state().contains("eddy_kinetic_energy"));
+  CHECK(component.export_state().contains("longitude"));
+  refused([&] { static_cast<void>(component.export_state().field("salt")); },
+          {"\"salt\"", "cell_area, cell_spacing"});
+  CHECK(delos::kEsmfNotFound == 41);
+  CHECK(delos::esmf_code(delos::ErrorKind::state) == 42);
+  CHECK(delos::esmf_code(delos::ErrorKind::config) == 9);
+  CHECK(delos::esmf_code(delos::ErrorKind::resource) == 30);
+  for (int kind = 0; kind <= static_cast<int>(delos::ErrorKind::internal); ++kind) {
+    CHECK(delos::esmf_code(static_cast<delos::ErrorKind>(kind)) != delos::kEsmfSuccess);
+  }
+}
+
+TEST_CASE("a mistake in the configuration is found before the first phase") {
+  try {
+    const delos::Component component(uniform("-5 km"));
+    FAIL("a negative spacing was taken");
+  } catch (const delos::Error& error) {
+    CHECK(error.kind() == delos::ErrorKind::config);
+  }
+}
+
+TEST_CASE("a stopped realize leaves the component advertised, and it can go on") {
+  std::atomic<bool> cancel{true};
+  delos::Component component(uniform("600 km"), {.cancel = &cancel});
+  CHECK_THROWS_AS(component.initialize(), delos::Error);
+  CHECK(component.generation() == 0);
+  cancel = false;
+  component.initialize(delos::InitializePhase::realize);
+  CHECK(component.generation() == 1);
+  delos::Component moved(std::move(component));
+  CHECK(moved.grid().n_cells() > 1000);
+}
+
+TEST_CASE("two components on two threads make the grids that they make alone") {
+  const auto coarse = uniform("900 km");
+  const auto fine = uniform("500 km");
+  const std::array<std::string, 2> alone = {life(coarse, 1), life(fine, 1)};
+  CHECK(alone[0] != alone[1]);
+  for (const int threads : {1, 2, 5}) {
+    CAPTURE(threads);
+    std::array<std::string, 2> together;
+    std::thread first([&] { together[0] = life(coarse, threads); });
+    std::thread second([&] { together[1] = life(fine, threads); });
+    first.join();
+    second.join();
+    CHECK(together == alone);
+  }
+}
+
+TEST_CASE("components in the host's own oneTBB and OpenMP loops make the same grids") {
+  const auto config = uniform("900 km");
+  const std::string alone = life(config, 1);
+  constexpr int kHosts = 4;
+  std::array<std::string, kHosts> digests;
+  tbb::task_arena arena(2);
+  arena.execute([&] {
+    tbb::parallel_for(0, kHosts,
+                      [&](int i) { digests[static_cast<std::size_t>(i)] = life(config, i % 3); });
+  });
+  for (const std::string& digest : digests) CHECK(digest == alone);
+#ifdef _OPENMP
+  digests.fill("");
+#pragma omp parallel for num_threads(3)
+  for (int i = 0; i < kHosts; ++i) digests[static_cast<std::size_t>(i)] = life(config, i % 3);
+  for (const std::string& digest : digests) CHECK(digest == alone);
+#else
+  MESSAGE("built without OpenMP: its part is left out");
+#endif
+}
+
+TEST_CASE("a component's life leaves output, locale, signals and floating point alone") {
+  const std::string alone = life(uniform("900 km"), 2);
+  const std::string locale = std::setlocale(LC_ALL, nullptr);
+  const std::string cpp_locale = std::locale().name();
+  const auto before = actions();
+  sigset_t mask_before, mask_after;
+  pthread_sigmask(SIG_SETMASK, nullptr, &mask_before);
+  const int rounding = std::fegetround();
+  Capture out(STDOUT_FILENO);
+  Capture err(STDERR_FILENO);
+  const std::string digest = life(uniform("900 km"), 2);
+  const long n_out = out.n_bytes();
+  const long n_err = err.n_bytes();
+  CHECK(digest == alone);
+  CHECK(n_out == 0);
+  CHECK(n_err == 0);
+  CHECK(std::setlocale(LC_ALL, nullptr) == locale);
+  CHECK(std::locale().name() == cpp_locale);
+  CHECK(actions() == before);
+  pthread_sigmask(SIG_SETMASK, nullptr, &mask_after);
+  for (const int number : kSignals) {
+    CHECK(sigismember(&mask_before, number) == sigismember(&mask_after, number));
+  }
+  CHECK(std::fegetround() == rounding);
+#ifdef __GLIBC__
+  CHECK(fegetexcept() == 0);
+#endif
+}
+
+TEST_CASE("a thousand components that are never realized come and go") {
+  const auto config = uniform("900 km");
+  for (int i = 0; i < 1000; ++i) {
+    delos::Component component(config);
+    component.initialize(delos::InitializePhase::advertise);
+    if (i % 2 == 0) component.finalize();
+    CHECK(component.generation() == 0);
+  }
+}
+
+TEST_CASE("clocks, alarms, times and intervals of the host are exact") {
+  const auto noleap = delos::parse_calendar("365_day");
+  CHECK(noleap == delos::Calendar::noleap);
+  CHECK(std::string(delos::to_string(delos::Calendar::day360)) == "360_day");
+  const auto start = delos::Time::parse("2000-01-31");
+  CHECK((start + delos::TimeInterval::of_months(1)).text() == "2000-02-29T00:00:00");
+  const auto third = delos::TimeInterval::of_seconds(0, 1, 3);
+  CHECK(third * 3 == delos::TimeInterval::of_seconds(1));
+  CHECK(third < delos::TimeInterval::of_seconds(1));
+  CHECK((start + third - start) == third);
+  CHECK((-third).text() == delos::TimeInterval::parse((-third).text()).text());
+  CHECK(delos::Time::of({.year = 2001, .month = 3, .day = 1}, noleap).day_of_year() == 60);
+  CHECK(start.date_time() == delos::DateTime{.year = 2000, .month = 1, .day = 31});
+  CHECK(start < delos::Time::parse("2000-01-31T00:00:00.5"));
+  CHECK_THROWS_AS(static_cast<void>(start < delos::Time::parse("2000-01-31", noleap)),
+                  delos::Error);
+  CHECK_THROWS_AS(delos::Time::parse("2001-02-29"), delos::Error);
+
+  auto clock = daily();
+  delos::Alarm alarm = clock.add_alarm({.interval = delos::TimeInterval::of_days(2)});
+  const delos::Clock copy = clock;
+  clock.advance();
+  CHECK_FALSE(alarm.is_ringing());
+  clock.advance();
+  CHECK(alarm.is_ringing());
+  CHECK(clock.ringing_alarms() == std::vector<int>{0});
+  CHECK_FALSE(copy.alarm(0).is_ringing());
+  alarm.ringer_off();
+  CHECK_FALSE(clock.alarm(0).is_ringing());
+  CHECK(alarm.ring_time().text() == "2000-03-02T00:00:00");
+  alarm.disable();
+  refused([&] { alarm.ringer_on(); }, {"alarm"});
+  refused([&] { static_cast<void>(clock.alarm(3)); }, {"3"});
+  CHECK_THROWS_AS(delos::Clock({.start = start, .stop = {}, .step = {}}), delos::Error);
+}
+
+TEST_CASE("what starting costs: initialize of a 60 km grid") {
+  auto config = delos::Config::from_text("sizing: {sources: [{type: constant, spacing: 60 km}]}");
+  delos::Component component(config);
+  const auto begin = std::chrono::steady_clock::now();
+  component.initialize();
+  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
+  MESSAGE("initialize: ", component.grid().n_cells(), " cells in ", wall.count(), " s");
+  CHECK(component.grid().certificate().well_centred);
+}
