@@ -70,8 +70,9 @@ TEST_CASE("a uniform grid looks uniform: its scale is no narrower than a tenth t
 }
 
 TEST_CASE("ticks are round, ascending, inside the scale and neither too few nor too many") {
-  for (const auto& [low, high] :
-       {std::pair{54.0, 66.0}, {30.0, 240.0}, {1.0, 1000.0}, {0.2, 0.3}}) {
+  for (const auto& range : {std::pair{54.0, 66.0}, {30.0, 240.0}, {1.0, 1000.0}, {0.2, 0.3}}) {
+    const double low = range.first;  // clang++ 14 lets no lambda, as in CAPTURE, use a binding
+    const double high = range.second;
     const SizeScale scale(std::vector<double>{low, std::sqrt(low * high), high});
     const auto ticks = scale.ticks_km();
     CAPTURE(low);
