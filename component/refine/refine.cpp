@@ -7,6 +7,7 @@
 
 #include "refine/assemble.hpp"
 #include "refine/bounds.hpp"
+#include "refine/curvature.hpp"
 #include "refine/front.hpp"
 #include "refine/skeleton.hpp"
 #include "refine/tiles.hpp"
@@ -74,6 +75,7 @@ Assembly refine_tiles(Context& context, const FrontInput& input, Assembler assem
 Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
             const RefineOptions& options, RefineReport& report) {
   check_options(options);
+  check_curvature(context.exec, surface, spacing);
   const Tiling tiling =
       make_tiles(context.exec, surface, spacing, options.tile_vertices, kMaxVertices);
   const Phase phase(context.monitor, "refine", static_cast<std::int64_t>(tiling.expected_vertices));

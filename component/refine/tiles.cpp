@@ -100,7 +100,7 @@ class TileTree {
 
   void grow(const std::array<Index, 3>& c, int level, std::int64_t node) {
     const double mass = expected(c, level, node);
-    if (mass <= tile_vertices_ || level >= kMaxLevel) {
+    if ((mass <= tile_vertices_ && !reaches_round(c)) || level >= kMaxLevel) {
       tiling_.tiles.push_back({c, mass});
       return;
     }
@@ -112,6 +112,18 @@ class TileTree {
   }
 
  private:
+  // Whether the normals at two corners differ by more than 135 degrees: such a tile lies on both
+  // faces of a flat body, and the first triangles across it run through the inside.
+  bool reaches_round(const std::array<Index, 3>& c) const {
+    constexpr double kLeastCosine = -0.7071067811865476;
+    std::array<Vec3, 3> normal;
+    for (std::size_t k = 0; k < 3; ++k) {
+      normal[k] = surface_.normal(tiling_.corners[static_cast<std::size_t>(c[k])]);
+    }
+    return normal[0].dot(normal[1]) < kLeastCosine || normal[1].dot(normal[2]) < kLeastCosine ||
+           normal[2].dot(normal[0]) < kLeastCosine;
+  }
+
   double expected(const std::array<Index, 3>& c, int level, std::int64_t node) const {
     if (level > kMeasuredLevel) {
       const auto& p = tiling_.corners;

@@ -187,6 +187,19 @@ TEST_CASE("very flat bodies with a patch at a tip keep all guarantees") {
   CHECK(disc_like.report.quality.n_obtuse == 0);
 }
 
+TEST_CASE("a spacing larger than a flat body's bends is refused with the place") {
+  try {
+    made(
+        "surface: {shape: ellipsoid, radii: [6371.22 km, 6371.22 km, 637.122 km]}\n"
+        "sizing: {sources: [{type: constant, spacing: 150 km}]}\n",
+        2);
+    FAIL("no error");
+  } catch (const Error& error) {
+    CHECK(error.kind() == ErrorKind::input);
+    CHECK(std::string(error.what()).find("bends with a radius of 66.6") != std::string::npos);
+  }
+}
+
 TEST_CASE("eddies and Rossby radii, as recipes combine them, give the same bits everywhere") {
   checked(
       "sizing:\n  resolution: 1 deg\n  gradient_limit: 0.1\n  combine: min\n  sources:\n"
