@@ -77,25 +77,19 @@ std::vector<Vec3> coast_points(const PolygonSet& polygons, double step_rad) {
   return points;
 }
 
-void distance_to_points(parallel::Executor& exec, std::vector<Vec3> points, double cutoff_rad,
-                        LatLonField& distance_rad) {
-  const NodeDirections nodes(distance_rad);
-  const NearestPoint tree(std::move(points));
+void distance_to_points(parallel::Executor& exec, const std::vector<Vec3>& points,
+                        double cutoff_rad, LatLonField& distance_rad) {
+  const NearestPoint tree(exec, points);
   const double chord = 2.0 * elementary::sin(0.5 * std::clamp(cutoff_rad, 0.0, kPi));
-  for_rows(exec, distance_rad, [&](Index row, double* values) {
-    NearestPoint::Hit hit;
-    for (Index i = 0; i < distance_rad.n_lon; ++i) {
-      const Vec3 query = nodes.direction(row, i);
-      // The last node's nearest is almost always this one's or beside it.
-      NearestPoint::Hit hint{chord * chord, kNone};
-      if (hit.point != kNone) {
-        const NearestPoint::Hit known = tree.distance_to(query, hit.point);
-        if (known.chord2 < hint.chord2) hint = known;
-      }
-      hit = tree.find(query, hint);
-      values[i] = hit.point == kNone ? cutoff_rad : angle_of_chord2(hit.chord2);
+  NodeSearch search;
+  search.below_chord2 = chord * chord;
+  search.take = [&](Index row, Index column, std::span<const NearestPoint::Hit> hits) {
+    double* values = distance_rad.values.data() + distance_rad.at(row, column);
+    for (const NearestPoint::Hit& hit : hits) {
+      *values++ = hit.point == kNone ? cutoff_rad : angle_of_chord2(hit.chord2);
     }
-  });
+  };
+  find_nearest(exec, tree, distance_rad, search);
 }
 
 void fill_coast(parallel::Executor& exec, const Ellipsoid& surface, const CoastSource& source,
@@ -107,13 +101,14 @@ void fill_coast(parallel::Executor& exec, const Ellipsoid& surface, const CoastS
   DELOS_CHECK(source.land || elevation_m, ErrorKind::config,
               "coast criterion has neither land polygons nor a bathymetry: give one");
   // Side points twice as dense as the table: distances true to a quarter of a cell.
-  std::vector<Vec3> points = source.land ? coast_points(*source.land, 0.5 * kPi / field.n_lat_cells)
-                                         : coast_points(exec, *elevation_m);
+  const std::vector<Vec3> points = source.land
+                                       ? coast_points(*source.land, 0.5 * kPi / field.n_lat_cells)
+                                       : coast_points(exec, *elevation_m);
   DELOS_CHECK(!points.empty(), ErrorKind::input,
               source.land ? source.land->source : elevation_m->source,
               " has no coast: no elevation changes sign, or there is no polygon");
   const double cutoff = (source.max_m - source.spacing_m) / (source.rate * surface.scale_m());
-  distance_to_points(exec, std::move(points), cutoff, field);
+  distance_to_points(exec, points, cutoff, field);
   for_rows(exec, field, [&](Index, double* values) {
     for (Index i = 0; i < field.n_lon; ++i) {
       values[i] =

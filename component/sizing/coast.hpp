@@ -29,8 +29,8 @@ std::vector<Vec3> coast_points(const PolygonSet& polygons, double step_rad);
 /// Great-circle angle (rad) from each node of the table to the nearest of the points, exact to
 /// rounding; `cutoff_rad` where none is nearer. A k-d tree: the poles and the date line are
 /// nothing special to it.
-void distance_to_points(parallel::Executor& exec, std::vector<Vec3> points, double cutoff_rad,
-                        LatLonField& distance_rad);
+void distance_to_points(parallel::Executor& exec, const std::vector<Vec3>& points,
+                        double cutoff_rad, LatLonField& distance_rad);
 
 /// Error(input) when there is no coast at all.
 void fill_coast(parallel::Executor& exec, const Ellipsoid& surface, const CoastSource& source,

@@ -168,6 +168,28 @@ double weighted_mean(const Raster& raster, const AxisWeights& rows, std::size_t 
   return valid > 0.5 * total && total > 0.0 ? sum / valid : kNan;
 }
 
+struct BorderNode {
+  Vec3 direction;
+  double value;
+};
+
+/// The valid nodes of a row beside a missing one: only they can be the nearest of a missing one.
+void add_border(const LatLonField& field, const NodeDirections& nodes, Index row,
+                std::vector<BorderNode>& found) {
+  const auto is_missing = [&](Index j, Index i) {
+    return std::isnan(field.values[field.at(j, i)]);
+  };
+  const Index south = std::max(row - 1, 0), north = std::min(row + 1, field.n_lat_cells);
+  for (Index i = 0; i < field.n_lon; ++i) {
+    if (is_missing(row, i)) continue;
+    const Index west = i == 0 ? field.n_lon - 1 : i - 1, east = i + 1 == field.n_lon ? 0 : i + 1;
+    if (is_missing(row, west) || is_missing(row, east) || is_missing(south, i) ||
+        is_missing(north, i)) {
+      found.push_back({nodes.direction(row, i), field.values[field.at(row, i)]});
+    }
+  }
+}
+
 }  // namespace
 
 LatLonField make_table(double resolution_rad) {
@@ -218,41 +240,37 @@ void fill_value(double value, LatLonField& field) {
 }
 
 void fill_nearest(parallel::Executor& exec, const std::string& source, LatLonField& field) {
-  const NodeDirections nodes(field);
-  const std::vector<double> before = field.values;
-  std::vector<Vec3> points;
-  std::vector<std::size_t> node_of_point;
-  for (Index row = 0; row < field.n_rows(); ++row) {
-    for (Index i = 0; i < field.n_lon; ++i) {
-      const std::size_t node = field.at(row, i);
-      if (std::isnan(before[node])) continue;
-      // Only a valid node beside a missing one can be the nearest of a missing one.
-      const Index west = i == 0 ? field.n_lon - 1 : i - 1, east = i + 1 == field.n_lon ? 0 : i + 1;
-      const Index south = std::max(row - 1, 0), north = std::min(row + 1, field.n_lat_cells);
-      const bool is_border =
-          std::isnan(before[field.at(row, west)]) || std::isnan(before[field.at(row, east)]) ||
-          std::isnan(before[field.at(south, i)]) || std::isnan(before[field.at(north, i)]);
-      if (!is_border) continue;
-      points.push_back(nodes.direction(row, i));
-      node_of_point.push_back(node);
-    }
-  }
-  const bool has_valid =
-      std::any_of(before.begin(), before.end(), [](double value) { return !std::isnan(value); });
-  DELOS_CHECK(has_valid, ErrorKind::input, source,
+  const std::vector<BorderNode> border = parallel::collect<BorderNode>(
+      exec, field.n_rows(), kRowGrain,
+      [&, nodes = NodeDirections(field)](std::int64_t begin, std::int64_t end, auto& found) {
+        for (std::int64_t row = begin; row < end; ++row) {
+          add_border(field, nodes, static_cast<Index>(row), found);
+        }
+      });
+  // Without a border between valid and missing nodes all are of one kind.
+  DELOS_CHECK(!border.empty() || !std::isnan(field.values[0]), ErrorKind::input, source,
               ": no valid value on the whole table: check the fill value and the region covered");
-  const NearestPoint tree(std::move(points));
-  for_rows(exec, field, [&](Index row, double* values) {
-    NearestPoint::Hit hit;
-    for (Index i = 0; i < field.n_lon; ++i) {
-      if (!std::isnan(values[i])) continue;
-      const Vec3 query = nodes.direction(row, i);
-      const double far = 5.0;  // above the longest squared chord
-      hit = tree.find(query, hit.point == kNone ? NearestPoint::Hit{far, kNone}
-                                                : tree.distance_to(query, hit.point));
-      values[i] = before[node_of_point[static_cast<std::size_t>(hit.point)]];
+  std::vector<Vec3> points;
+  points.reserve(border.size());
+  for (const BorderNode& node : border) points.push_back(node.direction);
+  const auto is_missing = [](double value) { return std::isnan(value); };
+  NodeSearch search;
+  search.is_wanted = [&](const TableTile& tile) {
+    for (Index row = tile.row_begin; row < tile.row_end; ++row) {
+      const double* values = field.values.data() + field.at(row, 0);
+      if (std::any_of(values + tile.column_begin, values + tile.column_end, is_missing))
+        return true;
     }
-  });
+    return false;
+  };
+  search.take = [&](Index row, Index column, std::span<const NearestPoint::Hit> hits) {
+    double* value = field.values.data() + field.at(row, column);
+    for (const NearestPoint::Hit& hit : hits) {
+      if (std::isnan(*value)) *value = border[static_cast<std::size_t>(hit.point)].value;
+      ++value;
+    }
+  };
+  if (!border.empty()) find_nearest(exec, NearestPoint(exec, points), field, search);
   unify_poles(field);
 }
 

@@ -3,8 +3,10 @@
 // sigma^2 / 2. Implicit steps split by direction need no care at the poles, where the columns
 // crowd: every step is a weighted mean with weights >= 0 and conserves the area integral.
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
-#include <limits>
+#include <optional>
 
 #include "core/error.hpp"
 #include "sizing/nodes.hpp"
@@ -16,140 +18,347 @@ namespace {
 /// Backward Euler has the right variance for any number of steps; with 4 the kernel's shape is
 /// near the Gaussian's (excess kurtosis 3 / 4 instead of 3).
 constexpr int kSteps = 4;
-/// Columns solved together: one cache line wide, so that the loops across them vectorise.
-constexpr Index kColumnBlock = 16;
+static_assert(kSteps % 2 == 0, "run() takes steps by twos");
+/// Rows or columns solved side by side: along one line each division waits for the last, so others
+/// fill the gaps.
+constexpr std::size_t kLanes = 8;
+/// Columns of a task: a row of a table is some pages long, so what is read of it should be some
+/// cache lines.
+constexpr std::size_t kColumnGroups = 4;
+constexpr std::int64_t kColumnGrain = kColumnGroups * kLanes;
+/// Rows of a task, whose memory serves one group of lines after the other.
+constexpr std::int64_t kRowsOfTask = 4 * kLanes;
+/// Nodes of each row that change places with lanes at a time: they stay in the first-level cache.
+constexpr Index kPatch = 16;
+
+/// Two numbers in a register of every machine of 64 bits (an extension that GCC and Clang share).
+using Pair = double __attribute__((vector_size(2 * sizeof(double))));
+
+using Mask = std::int64_t __attribute__((vector_size(2 * sizeof(std::int64_t))));
+
+/// Numbers that are added, multiplied and divided each with its like. GCC 12 makes scalar code of
+/// loops over an array's elements, and keeps vectors wider than a register in memory.
+struct Lanes {
+  Lanes() = default;
+  explicit Lanes(double value) { pairs.fill(Pair{value, value}); }
+  double at(std::size_t lane) const { return pairs[lane / 2][lane % 2]; }
+  void set(std::size_t lane, double value) { pairs[lane / 2][lane % 2] = value; }
+  std::array<Pair, kLanes / 2> pairs{};
+};
+
+template <class Operation>
+Lanes for_pairs(const Lanes& a, const Lanes& b, Operation operation) {
+  Lanes c;
+  for (std::size_t k = 0; k < c.pairs.size(); ++k) c.pairs[k] = operation(a.pairs[k], b.pairs[k]);
+  return c;
+}
+
+Lanes operator+(const Lanes& a, const Lanes& b) {
+  return for_pairs(a, b, [](const Pair& x, const Pair& y) { return x + y; });
+}
+Lanes operator-(const Lanes& a, const Lanes& b) {
+  return for_pairs(a, b, [](const Pair& x, const Pair& y) { return x - y; });
+}
+Lanes operator*(const Lanes& a, const Lanes& b) {
+  return for_pairs(a, b, [](const Pair& x, const Pair& y) { return x * y; });
+}
+Lanes operator/(const Lanes& a, const Lanes& b) {
+  return for_pairs(a, b, [](const Pair& x, const Pair& y) { return x / y; });
+}
+
+/// Lines of n unknowns side by side: (mass_k + link_{k-1} + link_k) x_k - link_{k-1} x_{k-1}
+/// - link_k x_{k+1} = mass_k d_k, where link_k ties k to k + 1; the last link of a ring ties its
+/// last unknown to its first.
+struct Lines {
+  explicit Lines(std::size_t n) : x(n), link(n) {}
+  std::vector<Lanes> x;  ///< d before solving, then the unknowns
+  std::vector<Lanes> link;
+};
+
+/// The numbers where the mask is set, 0 elsewhere.
+Pair only_where(const Mask& mask, const Pair& numbers) {
+  return std::bit_cast<Pair>(mask & std::bit_cast<Mask>(numbers));
+}
+
+/// Puts 0 for what is missing and cuts its links; `link_of(k)` says how strong link k is.
+template <class LinkOf>
+void tie(LinkOf&& link_of, Lines& lines) {
+  const std::size_t n = lines.x.size();
+  const Lanes first = lines.x[0];
+  for (std::size_t k = 0; k < n; ++k) {
+    const Lanes& next = k + 1 < n ? lines.x[k + 1] : first;
+    const Lanes link = link_of(k);
+    for (std::size_t p = 0; p < next.pairs.size(); ++p) {
+      const Pair here = lines.x[k].pairs[p], there = next.pairs[p];
+      const Mask is_valid = here == here;  // false for NaN alone
+      lines.link[k].pairs[p] = only_where(is_valid & (there == there), link.pairs[p]);
+      lines.x[k].pairs[p] = only_where(is_valid, here);
+    }
+  }
+}
+
+/// Gauss's elimination for all lines at once; its factors serve any number of right sides.
+class Solver {
+ public:
+  explicit Solver(const std::vector<double>& mass)
+      : next_(mass.size()), diagonal_(mass.size()), z_(mass.size()) {
+    for (const double m : mass) mass_.emplace_back(m);
+  }
+
+  void solve_chains(int n_times, Lines& lines);
+  void solve_rings(int n_times, Lines& lines);
+
+ private:
+  void factorise(const std::vector<Lanes>& link, std::size_t n, const Lanes& before);
+  void factorise_rings(const std::vector<Lanes>& link);
+  void solve(const std::vector<Lanes>& link, std::size_t n, std::vector<Lanes>& x) const;
+
+  std::vector<Lanes> mass_;
+  std::vector<Lanes> next_, diagonal_;  ///< x_k = y_k + next_k x_{k+1}
+  std::vector<Lanes> z_;                ///< x_k = y_k + z_k x_last on a ring
+};
+
+/// Elimination from the first of n unknowns on; `before` ties the first to what is kept aside.
+void Solver::factorise(const std::vector<Lanes>& link, std::size_t n, const Lanes& before) {
+  Lanes west = before, product;
+  for (std::size_t k = 0; k < n; ++k) {
+    const Lanes east = link[k];
+    diagonal_[k] = mass_[k] + west + east - product;
+    next_[k] = east / diagonal_[k];
+    product = east * next_[k];
+    west = east;
+  }
+}
+
+void Solver::solve(const std::vector<Lanes>& link, std::size_t n, std::vector<Lanes>& x) const {
+  Lanes value = mass_[0] * x[0] / diagonal_[0];
+  x[0] = value;
+  for (std::size_t k = 1; k < n; ++k) {
+    value = (mass_[k] * x[k] + link[k - 1] * value) / diagonal_[k];
+    x[k] = value;
+  }
+  for (std::size_t k = n - 1; k-- > 0;) {
+    value = x[k] + next_[k] * value;
+    x[k] = value;
+  }
+}
+
+void Solver::solve_chains(int n_times, Lines& lines) {
+  factorise(lines.link, lines.x.size(), Lanes());
+  for (int k = 0; k < n_times; ++k) solve(lines.link, lines.x.size(), lines.x);
+}
+
+/// The last unknown is kept aside, and z holds what the others take from it.
+void Solver::factorise_rings(const std::vector<Lanes>& link) {
+  const std::size_t last = link.size() - 1;
+  const Lanes closing = link[last], west = link[last - 1];
+  factorise(link, last, closing);
+  std::fill(z_.begin(), z_.end(), Lanes());
+  z_[0] = closing;
+  z_[last - 1] = z_[last - 1] + west;
+  solve(link, last, z_);
+  diagonal_[last] = mass_[last] + west + closing - west * z_[last - 1] - closing * z_[0];
+}
+
+void Solver::solve_rings(int n_times, Lines& lines) {
+  factorise_rings(lines.link);
+  std::vector<Lanes>& x = lines.x;
+  const std::size_t last = x.size() - 1;
+  const Lanes closing = lines.link[last], west = lines.link[last - 1];
+  for (int time = 0; time < n_times; ++time) {
+    solve(lines.link, last, x);
+    const Lanes end =
+        (mass_[last] * x[last] + west * x[last - 1] + closing * x[0]) / diagonal_[last];
+    x[last] = end;
+    for (std::size_t k = 0; k < last; ++k) x[k] = x[k] + z_[k] * end;
+  }
+}
+
+struct Workspace {
+  std::vector<Lines> groups;
+  Solver solver;
+};
+
+/// One for each thread, made when first asked for: memory given back and asked for again with
+/// every task would come from the system each time.
+class Workspaces {
+ public:
+  Workspaces(const parallel::Executor& exec, const std::vector<double>& mass, std::size_t n_groups)
+      : exec_(exec),
+        mass_(mass),
+        n_groups_(n_groups),
+        of_thread_(static_cast<std::size_t>(exec.n_threads())) {}
+  Workspace& mine() {
+    std::optional<Workspace>& work = of_thread_[static_cast<std::size_t>(exec_.thread_slot())];
+    if (!work) work = Workspace{std::vector<Lines>(n_groups_, Lines(mass_.size())), Solver(mass_)};
+    return *work;
+  }
+
+ private:
+  const parallel::Executor& exec_;
+  const std::vector<double> mass_;
+  std::size_t n_groups_;
+  std::vector<std::optional<Workspace>> of_thread_;
+};
 
 class Smoother {
  public:
-  Smoother(parallel::Executor& exec, double time, LatLonField& field)
-      : exec_(exec), field_(field), time_(time), is_valid_(field.values.size()) {
-    const Index last = field.n_lat_cells;
-    const double step = kPi / last;
-    for (Index j = 0; j <= last; ++j) {
-      const double south = std::max(field.lat_rad(j) - 0.5 * step, -0.5 * kPi);
-      const double north = std::min(field.lat_rad(j) + 0.5 * step, 0.5 * kPi);
-      cos_.push_back(elementary::cos(field.lat_rad(j)));
-      cos_north_.push_back(j < last ? elementary::cos(north) : 0.0);
-      area_.push_back(elementary::sin(north) - elementary::sin(south));
-    }
-    for (std::size_t k = 0; k < field.values.size(); ++k) {
-      is_valid_[k] = !std::isnan(field.values[k]);
-      if (!is_valid_[k]) field.values[k] = 0.0;
-    }
-  }
+  Smoother(parallel::Executor& exec, double time, LatLonField& field);
 
+  /// Rows, columns; columns, rows; and so on: the error of splitting is of second order, and two
+  /// steps along the same lines share the elimination.
   void run() {
-    for (int step = 0; step < kSteps; ++step) {
-      // Order turned round at every step: the error of splitting is of second order.
-      step % 2 == 0 ? diffuse_rows() : diffuse_columns();
-      step % 2 == 0 ? diffuse_columns() : diffuse_rows();
+    diffuse_rows(1);
+    for (int step = 2; step < kSteps; step += 2) {
+      diffuse_columns(2);
+      diffuse_rows(2);
     }
-    for (std::size_t k = 0; k < is_valid_.size(); ++k) {
-      if (!is_valid_[k]) field_.values[k] = std::numeric_limits<double>::quiet_NaN();
-    }
+    diffuse_columns(2);
+    diffuse_rows(1);
     unify_poles(field_);
   }
 
  private:
-  bool valid(Index row, Index column) const { return is_valid_[field_.at(row, column)] != 0; }
-  void diffuse_rows();
-  void diffuse_columns();
-  void diffuse_ring(Index row, double* x);
-  void diffuse_block(Index begin, Index end);
-  void mix_pole(Index row, double* x) const;
+  void diffuse_rows(int n_times);
+  void diffuse_columns(int n_times);
+  void load_rows(Index begin, Index end, Lines& lines) const;
+  void store_rows(Index begin, Index end, const Lines& lines);
+  void load_columns(Index row, Index begin, Index end, Lines& lines) const;
+  void store_columns(Index row, Index begin, Index end, const Lines& lines);
+  Lanes row_links(Index begin, Index end) const;
+  void mix_pole(Index row);
 
   parallel::Executor& exec_;
   LatLonField& field_;
   double time_;
-  std::vector<char> is_valid_;
   std::vector<double> cos_, cos_north_, area_;
 };
 
-void Smoother::mix_pole(Index row, double* x) const {
+Smoother::Smoother(parallel::Executor& exec, double time, LatLonField& field)
+    : exec_(exec), field_(field), time_(time) {
+  const Index last = field.n_lat_cells;
+  const double step = kPi / last;
+  for (Index j = 0; j <= last; ++j) {
+    const double south = std::max(field.lat_rad(j) - 0.5 * step, -0.5 * kPi);
+    const double north = std::min(field.lat_rad(j) + 0.5 * step, 0.5 * kPi);
+    cos_.push_back(elementary::cos(field.lat_rad(j)));
+    cos_north_.push_back(j < last ? elementary::cos(north) : 0.0);
+    area_.push_back(elementary::sin(north) - elementary::sin(south));
+  }
+}
+
+void Smoother::mix_pole(Index row) {
+  double* x = field_.values.data() + field_.at(row, 0);
   double sum = 0.0;
   Index n = 0;
   for (Index i = 0; i < field_.n_lon; ++i) {
-    if (!valid(row, i)) continue;
+    if (std::isnan(x[i])) continue;
     sum += x[i];
     ++n;
   }
   for (Index i = 0; i < field_.n_lon; ++i) {
-    if (valid(row, i)) x[i] = sum / n;
+    if (!std::isnan(x[i])) x[i] = sum / n;
   }
 }
 
-/// (1 + w_i + e_i) x_i - w_i x_{i-1} - e_i x_{i+1} = d_i on the ring: elimination with the last
-/// unknown kept aside, x_i = y_i + z_i x_last.
-void Smoother::diffuse_ring(Index row, double* x) {
-  const Index n = field_.n_lon;
-  const double step = 2.0 * kPi / n * cos_[static_cast<std::size_t>(row)];
-  const double link = time_ / (kSteps * step * step);
-  const auto size = static_cast<std::size_t>(n);
-  std::vector<double> next(size), z(size);
-  const auto east_link = [&](Index i) {
-    return valid(row, i) && valid(row, i + 1 == n ? 0 : i + 1) ? link : 0.0;
-  };
-  const double closing = east_link(n - 1);
-  double west = closing;
-  for (Index i = 0; i < n - 1; ++i) {
-    const auto k = static_cast<std::size_t>(i);
-    const double east = east_link(i);
-    const double carry = i > 0 ? west : 0.0;
-    const double diagonal = 1.0 + west + east - (i > 0 ? carry * next[k - 1] : 0.0);
-    next[k] = i < n - 2 ? east / diagonal : 0.0;
-    x[k] = (x[k] + (i > 0 ? carry * x[k - 1] : 0.0)) / diagonal;
-    z[k] = ((i == 0 ? west : carry * z[k - 1]) + (i == n - 2 ? east : 0.0)) / diagonal;
-    west = east;
+/// Rows [begin, end), one a lane, no more than there are lanes.
+void Smoother::load_rows(Index begin, Index end, Lines& lines) const {
+  for (Index from = 0; from < field_.n_lon; from += kPatch) {
+    const Index to = std::min(from + kPatch, field_.n_lon);
+    for (Index row = begin; row < end; ++row) {
+      const double* x = field_.values.data() + field_.at(row, 0);
+      const auto lane = static_cast<std::size_t>(row - begin);
+      for (Index i = from; i < to; ++i) lines.x[static_cast<std::size_t>(i)].set(lane, x[i]);
+    }
   }
-  for (Index i = n - 2; i-- > 0;) {
-    const auto k = static_cast<std::size_t>(i);
-    x[k] += next[k] * x[k + 1];
-    z[k] += next[k] * z[k + 1];
-  }
-  const std::size_t last = size - 1;
-  x[last] = (x[last] + west * x[last - 1] + closing * x[0]) /
-            (1.0 + west + closing - west * z[last - 1] - closing * z[0]);
-  for (std::size_t k = 0; k < last; ++k) x[k] += z[k] * x[last];
 }
 
-void Smoother::diffuse_rows() {
-  for_rows(exec_, field_, [&](Index row, double* x) {
-    row == 0 || row == field_.n_lat_cells ? mix_pole(row, x) : diffuse_ring(row, x);
+/// What is missing stays missing.
+void Smoother::store_rows(Index begin, Index end, const Lines& lines) {
+  for (Index from = 0; from < field_.n_lon; from += kPatch) {
+    const Index to = std::min(from + kPatch, field_.n_lon);
+    for (Index row = begin; row < end; ++row) {
+      double* x = field_.values.data() + field_.at(row, 0);
+      const auto lane = static_cast<std::size_t>(row - begin);
+      for (Index i = from; i < to; ++i) {
+        x[i] = std::isnan(x[i]) ? x[i] : lines.x[static_cast<std::size_t>(i)].at(lane);
+      }
+    }
+  }
+}
+
+Lanes Smoother::row_links(Index begin, Index end) const {
+  Lanes link;
+  for (Index row = begin; row < end; ++row) {
+    const double step = 2.0 * kPi / field_.n_lon * cos_[static_cast<std::size_t>(row)];
+    link.set(static_cast<std::size_t>(row - begin), time_ / (kSteps * step * step));
+  }
+  return link;
+}
+
+void Smoother::diffuse_rows(int n_times) {
+  const Index last = field_.n_lat_cells;
+  for (int k = 0; k < n_times; ++k) {
+    mix_pole(0);
+    mix_pole(last);
+  }
+  const auto n = static_cast<std::size_t>(field_.n_lon);
+  Workspaces workspaces(exec_, std::vector<double>(n, 1.0), 1);
+  parallel::for_range(exec_, last - 1, kRowsOfTask, [&](std::int64_t from, std::int64_t to) {
+    Workspace& work = workspaces.mine();
+    Lines& lines = work.groups[0];
+    constexpr auto kWidth = static_cast<Index>(kLanes);
+    for (Index begin = static_cast<Index>(from) + 1; begin <= to; begin += kWidth) {
+      const Index end = std::min(begin + kWidth, static_cast<Index>(to) + 1);
+      load_rows(begin, end, lines);
+      tie([link = row_links(begin, end)](std::size_t) { return link; }, lines);
+      work.solver.solve_rings(n_times, lines);
+      store_rows(begin, end, lines);
+    }
   });
 }
 
-/// The tridiagonal systems of columns [begin, end), side by side.
-void Smoother::diffuse_block(Index begin, Index end) {
-  const Index n = field_.n_rows(), width = end - begin;
-  const double per_step = time_ / kSteps * n / kPi;
-  std::vector<double> next(static_cast<std::size_t>(n) * kColumnBlock);
-  double south[kColumnBlock] = {};
-  for (Index j = 0; j < n; ++j) {
-    const double area = area_[static_cast<std::size_t>(j)];
-    const double link = per_step * cos_north_[static_cast<std::size_t>(j)];
-    double* x = field_.values.data() + field_.at(j, begin);
-    double* here = next.data() + static_cast<std::size_t>(j) * kColumnBlock;
-    for (Index c = 0; c < width; ++c) {
-      const bool linked = j + 1 < n && valid(j, begin + c) && valid(j + 1, begin + c);
-      const double north = linked ? link : 0.0;
-      const double before = j > 0 ? here[c - kColumnBlock] : 0.0;
-      const double below = j > 0 ? x[c - field_.n_lon] : 0.0;
-      const double diagonal = area + south[c] + north - south[c] * before;
-      here[c] = north / diagonal;
-      x[c] = (area * x[c] + south[c] * below) / diagonal;
-      south[c] = north;
-    }
-  }
-  for (Index j = n - 1; j-- > 0;) {
-    double* x = field_.values.data() + field_.at(j, begin);
-    const double* here = next.data() + static_cast<std::size_t>(j) * kColumnBlock;
-    for (Index c = 0; c < width; ++c) x[c] += here[c] * x[c + field_.n_lon];
+/// Row `row` of the columns [begin, end), one a lane.
+void Smoother::load_columns(Index row, Index begin, Index end, Lines& lines) const {
+  const double* x = field_.values.data() + field_.at(row, begin);
+  Lanes& to = lines.x[static_cast<std::size_t>(row)];
+  const auto width = static_cast<std::size_t>(end - begin);
+  for (std::size_t lane = 0; lane < width; ++lane) to.set(lane, x[lane]);
+}
+
+void Smoother::store_columns(Index row, Index begin, Index end, const Lines& lines) {
+  double* x = field_.values.data() + field_.at(row, begin);
+  const Lanes& from = lines.x[static_cast<std::size_t>(row)];
+  const auto width = static_cast<std::size_t>(end - begin);
+  for (std::size_t lane = 0; lane < width; ++lane) {
+    x[lane] = std::isnan(x[lane]) ? x[lane] : from.at(lane);
   }
 }
 
-void Smoother::diffuse_columns() {
-  parallel::for_range(exec_, field_.n_lon, kColumnBlock, [&](std::int64_t begin, std::int64_t end) {
-    diffuse_block(static_cast<Index>(begin), static_cast<Index>(end));
+void Smoother::diffuse_columns(int n_times) {
+  const Index n = field_.n_rows();
+  const double step = time_ / kSteps * n / kPi;
+  const auto link_of = [&](std::size_t row) { return Lanes(step * cos_north_[row]); };
+  Workspaces workspaces(exec_, area_, kColumnGroups);
+  parallel::for_range(exec_, field_.n_lon, kColumnGrain, [&](std::int64_t from, std::int64_t to) {
+    Workspace& work = workspaces.mine();
+    const auto for_groups = [&](auto&& body) {
+      constexpr auto kWidth = static_cast<Index>(kLanes);
+      std::size_t group = 0;
+      for (auto begin = static_cast<Index>(from); begin < to; begin += kWidth) {
+        body(begin, std::min(begin + kWidth, static_cast<Index>(to)), work.groups[group++]);
+      }
+    };
+    for (Index row = 0; row < n; ++row) {
+      for_groups([&](Index i, Index j, Lines& lines) { load_columns(row, i, j, lines); });
+    }
+    for_groups([&](Index, Index, Lines& lines) {
+      tie(link_of, lines);
+      work.solver.solve_chains(n_times, lines);
+    });
+    for (Index row = 0; row < n; ++row) {
+      for_groups([&](Index i, Index j, Lines& lines) { store_columns(row, i, j, lines); });
+    }
   });
 }
 

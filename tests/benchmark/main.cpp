@@ -12,6 +12,7 @@
 #include "benchmark/cases.hpp"
 #include "benchmark/child.hpp"
 #include "benchmark/measure.hpp"
+#include "benchmark/sizing_cases.hpp"
 #include "io/data_files.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -25,6 +26,7 @@ constexpr char kUsage[] =
     "  --repeat N       runs of each; the least of each time is told (default 1)\n"
     "  --large          the large cases too\n"
     "  --label TEXT     stands in the line on the machine, e.g. the commit\n"
+    "  --sizing         the kernels of the sizing layer instead; CASE names some of them\n"
     "  --list           names of the cases, nothing is run\n";
 
 struct Arguments {
@@ -32,6 +34,7 @@ struct Arguments {
   std::vector<int> threads;
   int repeats = 1;
   bool with_large = false;
+  bool only_sizing = false;
   bool only_lists = false;
   std::string label;
 };
@@ -72,6 +75,8 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.label = value();
     } else if (words[i] == "--large") {
       arguments.with_large = true;
+    } else if (words[i] == "--sizing") {
+      arguments.only_sizing = true;
     } else if (words[i] == "--list") {
       arguments.only_lists = true;
     } else if (words[i].rfind("--", 0) == 0) {
@@ -176,7 +181,27 @@ void print_names() {
   }
 }
 
+/// Kernels of the sizing layer; false when the bits of one depend on the threads.
+bool run_sizing(const Arguments& arguments) {
+  bool is_good = true;
+  std::string name, digest;
+  const auto timings = time_sizing(arguments.threads, arguments.repeats, arguments.names);
+  if (timings.empty()) throw std::invalid_argument("no such kernel");
+  for (const SizingTiming& timing : timings) {
+    print({{"sizing", timing.name},
+           {"threads", timing.threads},
+           {"seconds", timing.seconds},
+           {"nodes_per_s", static_cast<double>(timing.nodes) / timing.seconds},
+           {"digest", timing.digest}});
+    is_good = is_good && (timing.name != name || timing.digest == digest);
+    name = timing.name;
+    digest = timing.digest;
+  }
+  return is_good;
+}
+
 int run_all(const Arguments& arguments) {
+  if (arguments.only_sizing) return run_sizing(arguments) ? 0 : 1;
   const std::vector<Case> cases = chosen(arguments);
   if (arguments.only_lists) {
     print_names();
