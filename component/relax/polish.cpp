@@ -25,7 +25,7 @@ constexpr std::size_t kMovesOnly = 2;  // the first means, which only move verti
 // mends the rims, and searching for better topologies would only take time. Most of what can be
 // gained there is gained in a few rounds.
 constexpr std::size_t kHostileShare = 40;
-constexpr std::size_t kHostileCount = 2000;
+constexpr std::size_t kHostileCount = 700;
 constexpr int kHostileRounds = 16;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
