@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "geometry/ellipsoid.hpp"
 #include "relax/score.hpp"
 #include "sizing/spacing.hpp"
@@ -91,6 +92,6 @@ void commit_patch(Mesh& mesh, TriangleAtVertex& at_vertex, const ExtractedPatch&
                   MeshEdits& edits);
 
 /// Takes the dead vertices and triangles out of the arrays; the survivors keep their order.
-void compact(Mesh& mesh, MeshEdits& edits);
+void compact(parallel::Executor& exec, Mesh& mesh, MeshEdits& edits);
 
 }  // namespace delos

@@ -12,6 +12,7 @@ namespace {
 
 constexpr std::int64_t kScanGrain = 16384;  // triangles a task: about half a millisecond
 constexpr std::int64_t kPatchGrain = 4;     // patches a task: some hundred microseconds
+constexpr std::int64_t kListGrain = 512;    // listed triangles a task: some ten microseconds
 
 // The means in order of strength; index 0 is tried first.
 struct Means {
@@ -62,55 +63,49 @@ std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, double t
       });
 }
 
-// Picks disjoint patches: lists of free vertices whose triangles share no vertex.
-class PatchPicker {
- public:
-  PatchPicker(const Mesh& mesh, const TriangleAtVertex& at_vertex)
-      : mesh_(mesh), at_vertex_(at_vertex), is_taken_(mesh.vertices.size(), 0) {}
-
-  // The free vertices of the patch of `tri`, `rings` around it; empty when it meets another patch.
-  std::vector<Index> pick(Index tri, int rings) {
-    const auto& corners = mesh_.triangle(tri).vertex;
-    std::vector<Index> closure(corners.begin(), corners.end());
-    std::size_t n_free = 0;
-    std::size_t ring_begin = 0;
-    for (int ring = 0; ring <= rings; ++ring) {
-      n_free = closure.size();
-      add_ring(closure, ring_begin);
-      ring_begin = n_free;
-    }
-    const bool is_clear =
-        std::all_of(closure.begin(), closure.end(), [&](Index v) { return is_taken_[at(v)] == 0; });
-    if (!is_clear) return {};
-    for (const Index v : closure) is_taken_[at(v)] = 1;
-    closure.resize(n_free);
-    std::sort(closure.begin(), closure.end());
-    return closure;
-  }
-
- private:
-  // Appends the neighbours of closure[begin..] that are not in it yet.
-  void add_ring(std::vector<Index>& closure, std::size_t begin) const {
-    const std::size_t end = closure.size();
-    for (std::size_t i = begin; i < end; ++i) {
-      const Index vertex = closure[i];
-      Index tri = at_vertex_[at(vertex)];
-      do {
-        const Triangle& t = mesh_.triangle(tri);
-        const int k = next_corner(corner_at(t, vertex));
-        const Index neighbour = t.vertex[at(k)];
-        if (std::find(closure.begin(), closure.end(), neighbour) == closure.end()) {
-          closure.push_back(neighbour);
-        }
-        tri = t.neighbour[at(k)];
-      } while (tri != at_vertex_[at(vertex)]);
-    }
-  }
-
-  const Mesh& mesh_;
-  const TriangleAtVertex& at_vertex_;
-  std::vector<char> is_taken_;
+// A mesh and one triangle at each vertex.
+struct MeshView {
+  const Mesh& mesh;
+  const TriangleAtVertex& at_vertex;
 };
+
+// A triangle with the vertices around it: the first n_free may move, the others are their border.
+struct Surroundings {
+  std::vector<Index> vertices;
+  std::size_t n_free = 0;
+};
+
+// Appends the neighbours of vertices[begin..] that are not in it yet.
+void add_ring(const MeshView& view, std::size_t begin, std::vector<Index>& vertices) {
+  const std::size_t end = vertices.size();
+  for (std::size_t i = begin; i < end; ++i) {
+    const Index vertex = vertices[i];
+    const Index first = view.at_vertex[at(vertex)];
+    Index tri = first;
+    do {
+      const Triangle& t = view.mesh.triangle(tri);
+      const int k = next_corner(corner_at(t, vertex));
+      const Index neighbour = t.vertex[at(k)];
+      if (std::find(vertices.begin(), vertices.end(), neighbour) == vertices.end()) {
+        vertices.push_back(neighbour);
+      }
+      tri = t.neighbour[at(k)];
+    } while (tri != first);
+  }
+}
+
+Surroundings surroundings(const MeshView& view, Index tri, int rings) {
+  Surroundings found;
+  const auto& corners = view.mesh.triangle(tri).vertex;
+  found.vertices.assign(corners.begin(), corners.end());
+  std::size_t ring_begin = 0;
+  for (int ring = 0; ring <= rings; ++ring) {
+    found.n_free = found.vertices.size();
+    add_ring(view, ring_begin, found.vertices);
+    ring_begin = found.n_free;
+  }
+  return found;
+}
 
 // Means already tried in vain, by vertex; a triangle has those that all its corners have.
 using TriedMeans = std::vector<std::uint8_t>;
@@ -120,10 +115,10 @@ std::size_t tried_at(const Mesh& mesh, const TriedMeans& tried, Index tri) {
   return std::min({tried[at(v[0])], tried[at(v[1])], tried[at(v[2])]});
 }
 
-// A mesh and one triangle at each vertex.
-struct MeshView {
-  const Mesh& mesh;
-  const TriangleAtVertex& at_vertex;
+// Triangles to mend, and how many of the means may be used.
+struct Wanted {
+  const std::vector<Index>& triangles;
+  std::size_t n_means;
 };
 
 struct Job {
@@ -134,20 +129,39 @@ struct Job {
   bool is_better = false;
 };
 
-std::vector<Job> pick_jobs(const Mesh& mesh, const TriangleAtVertex& at_vertex,
-                           const TriedMeans& tried, std::size_t n_means,
-                           const std::vector<Index>& bad) {
-  PatchPicker picker(mesh, at_vertex);
+// Jobs on disjoint patches, whose triangles share no vertex: of those that meet, the first stays.
+// Looking around is done by all threads, choosing by one; `is_taken` is all false, and is so again
+// afterwards.
+std::vector<Job> pick_jobs(parallel::Executor& exec, const MeshView& view, const TriedMeans& tried,
+                           const Wanted& wanted, std::vector<char>& is_taken) {
   std::vector<Job> jobs;
-  for (const Index tri : bad) {
-    const std::size_t next = tried_at(mesh, tried, tri);
-    if (next >= n_means) continue;
-    std::vector<Index> free_vertices = picker.pick(tri, kMeans[next].rings);
-    if (!free_vertices.empty()) {
-      jobs.push_back({tri, kMeans[next], std::move(free_vertices), {}, false});
-    }
+  for (const Index tri : wanted.triangles) {
+    const std::size_t next = tried_at(view.mesh, tried, tri);
+    if (next < wanted.n_means) jobs.push_back({tri, kMeans[next], {}, {}, false});
   }
-  return jobs;
+  std::vector<Surroundings> around(jobs.size());
+  parallel::for_index(
+      exec, static_cast<std::int64_t>(jobs.size()), kPatchGrain, [&](std::int64_t i) {
+        const Job& job = jobs[static_cast<std::size_t>(i)];
+        around[static_cast<std::size_t>(i)] = surroundings(view, job.triangle, job.means.rings);
+      });
+  std::vector<Index> taken;
+  std::vector<Job> picked;
+  for (std::size_t i = 0; i < jobs.size(); ++i) {
+    std::vector<Index>& vertices = around[i].vertices;
+    if (std::any_of(vertices.begin(), vertices.end(),
+                    [&](Index v) { return is_taken[at(v)] != 0; })) {
+      continue;
+    }
+    for (const Index v : vertices) is_taken[at(v)] = 1;
+    taken.insert(taken.end(), vertices.begin(), vertices.end());
+    vertices.resize(around[i].n_free);
+    std::sort(vertices.begin(), vertices.end());
+    jobs[i].free_vertices = std::move(vertices);
+    picked.push_back(std::move(jobs[i]));
+  }
+  for (const Index v : taken) is_taken[at(v)] = 0;
+  return picked;
 }
 
 void mend(Context& context, const Target& target, const RelaxOptions& options, const MeshView& view,
@@ -180,20 +194,46 @@ void commit(const std::vector<Job>& jobs, Mesh& mesh, TriangleAtVertex& at_verte
   tried.resize(mesh.vertices.size(), 0);
 }
 
+// Lawson flips from the triangles that have been written; `written` gets those that flips write.
+// Most of the written ones need none, which all threads find out together. Flips come to rest
+// before the next seed is looked at, so leaving out seeds that need none changes nothing.
+std::int64_t restore_around(parallel::Executor& exec, const Ellipsoid& surface, Mesh& mesh,
+                            std::vector<Index>& written) {
+  const std::vector<Index> seeds = parallel::collect<Index>(
+      exec, static_cast<std::int64_t>(written.size()), kListGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Index tri = written[static_cast<std::size_t>(i)];
+          bool needs_flip = false;
+          for (int side = 0; side < 3 && !needs_flip; ++side) {
+            needs_flip = is_illegal(mesh, surface, tri, side);
+          }
+          if (needs_flip) found.push_back(tri);
+        }
+      });
+  return restore_delaunay(mesh, surface, seeds, &written);
+}
+
 // Only triangles that were bad, have been written or lie next to those can be bad now.
-std::vector<Index> still_bad(const Mesh& mesh, double target, std::vector<Index> bad,
-                             const std::vector<Index>& written) {
+std::vector<Index> still_bad(parallel::Executor& exec, const Mesh& mesh, double target,
+                             std::vector<Index> suspects, const std::vector<Index>& written) {
   for (const Index tri : written) {
     const auto& around = mesh.triangle(tri).neighbour;
-    bad.insert(bad.end(), around.begin(), around.end());
-    bad.push_back(tri);
+    suspects.insert(suspects.end(), around.begin(), around.end());
+    suspects.push_back(tri);
   }
-  std::sort(bad.begin(), bad.end());
-  bad.erase(std::unique(bad.begin(), bad.end()), bad.end());
-  std::erase_if(bad, [&](Index tri) {
-    return mesh.triangle(tri).vertex[0] == kNone || !is_bad(mesh, tri, target);
-  });
-  return bad;
+  std::sort(suspects.begin(), suspects.end());
+  suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+  return parallel::collect<Index>(
+      exec, static_cast<std::int64_t>(suspects.size()), kListGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Index tri = suspects[static_cast<std::size_t>(i)];
+          if (mesh.triangle(tri).vertex[0] != kNone && is_bad(mesh, tri, target)) {
+            found.push_back(tri);
+          }
+        }
+      });
 }
 
 }  // namespace
@@ -208,6 +248,7 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
   TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
   const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
   MeshEdits edits;
+  std::vector<char> is_taken(mesh.vertices.size(), 0);
   const bool is_hostile =
       bad.size() > kHostileCount && bad.size() * kHostileShare > mesh.triangles.size();
   const std::size_t n_means = is_hostile ? kMovesOnly : kMeans.size();
@@ -215,24 +256,26 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
       is_hostile ? std::min(kHostileRounds, options.polish_rounds) : options.polish_rounds;
   for (int round = 0; round < most_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
-    std::vector<Job> jobs = pick_jobs(mesh, at_vertex, tried, n_means, bad);
+    std::vector<Job> jobs =
+        pick_jobs(context.exec, {mesh, at_vertex}, tried, {bad, n_means}, is_taken);
     if (jobs.empty()) break;
     mend(context, target, options, {mesh, at_vertex}, jobs);
     commit(jobs, mesh, at_vertex, tried, edits);
+    is_taken.resize(mesh.vertices.size(), 0);
     std::vector<Index> written = edits.touched_triangles;
-    report.n_flips += restore_delaunay(mesh, target.surface, edits.touched_triangles, &written);
+    report.n_flips += restore_around(context.exec, target.surface, mesh, written);
     for (const Index tri : written) {
       for (const Index v : mesh.triangle(tri).vertex) at_vertex[at(v)] = tri;
     }
     const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    bad = still_bad(mesh, options.target_quality, std::move(bad), written);
+    bad = still_bad(context.exec, mesh, options.target_quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.rounds;
   }
   report.n_inserted = static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
   report.n_removed = static_cast<std::int64_t>(edits.dead_vertices.size());
   report.n_below_target = static_cast<std::int64_t>(bad.size());
-  if (!edits.dead_vertices.empty()) compact(mesh, edits);
+  if (!edits.dead_vertices.empty()) compact(context.exec, mesh, edits);
   return report;
 }
 

@@ -48,7 +48,8 @@ std::string commit(const Sample& sample, const ExtractedPatch& edited) {
   TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
   MeshEdits edits;
   commit_patch(mesh, at_vertex, edited, edits);
-  compact(mesh, edits);
+  parallel::Executor exec(1);
+  compact(exec, mesh, edits);
   return summary(validate(mesh, kSphere, {.delaunay = false}));
 }
 
