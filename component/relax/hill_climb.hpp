@@ -8,7 +8,7 @@
 namespace delos {
 
 struct ClimbOptions {
-  double enough = 0.93;  ///< score above which a star is left alone
+  double enough = 0.94;  ///< score above which a star is left alone
   int sweeps = 12;       ///< over all free vertices, at most
 };
 

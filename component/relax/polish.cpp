@@ -21,12 +21,20 @@ struct Means {
 };
 constexpr std::array<Means, 5> kMeans = {{{1, false}, {2, false}, {2, true}, {3, true}, {4, true}}};
 constexpr std::size_t kMovesOnly = 2;  // the first means, which only move vertices
-// Where more than one triangle in so many is bad, and not a few of a coarse mesh either, the
-// spacing itself is too rough for any mesh to follow: the bad ones lie in crowds, of which a round
-// mends the rims, and searching for better topologies would only take time. Most of what can be
-// gained there is gained in a few rounds.
+// A triangle this little below the target is not worth all means: the last two cost most and are
+// for those that spoil a grid.
+constexpr double kNearTarget = 0.01;
+constexpr std::size_t kMeansNearTarget = 3;
+// The rougher the spacing, the lower the aim. From so many triangles on, not a few of a coarse
+// mesh:
+constexpr std::size_t kManyBad = 700;
+// - Where one triangle in so many is below the target, all means go into those that are more than
+//   kNearTarget below it.
+constexpr std::size_t kRoughShare = 50;
+// - Where one in so many is as far below as that, no mesh can follow the spacing: the bad triangles
+//   lie in crowds, of which a round mends the rims, and searching for better topologies would only
+//   take time. Most of what can be gained is gained by moves, in a few rounds.
 constexpr std::size_t kHostileShare = 40;
-constexpr std::size_t kHostileCount = 700;
 constexpr int kHostileRounds = 16;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
@@ -115,10 +123,17 @@ std::size_t tried_at(const Mesh& mesh, const TriedMeans& tried, Index tri) {
   return std::min({tried[at(v[0])], tried[at(v[1])], tried[at(v[2])]});
 }
 
-// Triangles to mend, and how many of the means may be used.
+// What polish sets out to do with a mesh.
+struct Aim {
+  double quality;
+  std::size_t n_means;
+  int most_rounds;
+};
+
+// Triangles to mend, ascending.
 struct Wanted {
   const std::vector<Index>& triangles;
-  std::size_t n_means;
+  const Aim& aim;
 };
 
 struct Job {
@@ -137,7 +152,10 @@ std::vector<Job> pick_jobs(parallel::Executor& exec, const MeshView& view, const
   std::vector<Job> jobs;
   for (const Index tri : wanted.triangles) {
     const std::size_t next = tried_at(view.mesh, tried, tri);
-    if (next < wanted.n_means) jobs.push_back({tri, kMeans[next], {}, {}, false});
+    if (next >= kMeansNearTarget && score(view.mesh, tri) >= wanted.aim.quality - kNearTarget) {
+      continue;
+    }
+    if (next < wanted.aim.n_means) jobs.push_back({tri, kMeans[next], {}, {}, false});
   }
   std::vector<Surroundings> around(jobs.size());
   parallel::for_index(
@@ -164,14 +182,14 @@ std::vector<Job> pick_jobs(parallel::Executor& exec, const MeshView& view, const
   return picked;
 }
 
-void mend(Context& context, const Target& target, const RelaxOptions& options, const MeshView& view,
-          std::vector<Job>& jobs) {
+void mend(Context& context, const Target& target, const RepairOptions& options,
+          const MeshView& view, std::vector<Job>& jobs) {
   parallel::for_index(
       context.exec, static_cast<std::int64_t>(jobs.size()), kPatchGrain, [&](std::int64_t i) {
         Job& job = jobs[static_cast<std::size_t>(i)];
         job.patch = extract_patch(view.mesh, view.at_vertex, job.free_vertices);
         job.is_better = repair_patch(
-            target, {options.target_quality, options.repair && job.means.change_topology},
+            target, {options.enough, options.change_topology && job.means.change_topology},
             job.patch.patch);
       });
 }
@@ -236,6 +254,19 @@ std::vector<Index> still_bad(parallel::Executor& exec, const Mesh& mesh, double 
       });
 }
 
+// `bad`, the triangles below the target, keeps those that are aimed at.
+Aim choose_aim(const Mesh& mesh, const RelaxOptions& options, std::vector<Index>& bad) {
+  const Aim full{options.target_quality, kMeans.size(), options.polish_rounds};
+  const auto is_many = [&](std::size_t n, std::size_t share) {
+    return n > kManyBad && n * share > mesh.triangles.size();
+  };
+  if (!is_many(bad.size(), kRoughShare)) return full;
+  const double near_target = options.target_quality - kNearTarget;
+  std::erase_if(bad, [&](Index tri) { return score(mesh, tri) >= near_target; });
+  if (!is_many(bad.size(), kHostileShare)) return {near_target, full.n_means, full.most_rounds};
+  return {near_target, kMovesOnly, std::min(kHostileRounds, options.polish_rounds)};
+}
+
 }  // namespace
 
 PolishReport polish(Context& context, const Target& target, const RelaxOptions& options,
@@ -243,23 +274,20 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
   PolishReport report;
   const Phase phase(context.monitor, "polish", mesh.n_triangles());
   std::vector<Index> bad = find_bad(context.exec, mesh, options.target_quality);
+  const Aim aim = choose_aim(mesh, options, bad);
+  const RepairOptions repair{aim.quality, options.repair};
   context.monitor.advance(mesh.n_triangles() - static_cast<std::int64_t>(bad.size()));
   TriedMeans tried(mesh.vertices.size(), 0);
   TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
+  std::vector<char> is_taken(mesh.vertices.size(), 0);
   const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
   MeshEdits edits;
-  std::vector<char> is_taken(mesh.vertices.size(), 0);
-  const bool is_hostile =
-      bad.size() > kHostileCount && bad.size() * kHostileShare > mesh.triangles.size();
-  const std::size_t n_means = is_hostile ? kMovesOnly : kMeans.size();
-  const int most_rounds =
-      is_hostile ? std::min(kHostileRounds, options.polish_rounds) : options.polish_rounds;
-  for (int round = 0; round < most_rounds && !bad.empty(); ++round) {
+  for (int round = 0; round < aim.most_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
-    std::vector<Job> jobs =
-        pick_jobs(context.exec, {mesh, at_vertex}, tried, {bad, n_means}, is_taken);
+    const MeshView view{mesh, at_vertex};
+    std::vector<Job> jobs = pick_jobs(context.exec, view, tried, {bad, aim}, is_taken);
     if (jobs.empty()) break;
-    mend(context, target, options, {mesh, at_vertex}, jobs);
+    mend(context, target, repair, view, jobs);
     commit(jobs, mesh, at_vertex, tried, edits);
     is_taken.resize(mesh.vertices.size(), 0);
     std::vector<Index> written = edits.touched_triangles;
@@ -268,7 +296,7 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
       for (const Index v : mesh.triangle(tri).vertex) at_vertex[at(v)] = tri;
     }
     const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    bad = still_bad(context.exec, mesh, options.target_quality, std::move(bad), written);
+    bad = still_bad(context.exec, mesh, aim.quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.rounds;
   }

@@ -11,7 +11,7 @@ struct PolishReport {
   std::int64_t n_flips = 0;
   std::int64_t n_removed = 0;
   std::int64_t n_inserted = 0;
-  std::int64_t n_below_target = 0;  ///< triangles left below the target
+  std::int64_t n_below_target = 0;  ///< see RelaxReport
 };
 
 /// Each round picks bad triangles in ascending order, gives each a patch unless a patch of this

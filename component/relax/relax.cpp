@@ -22,7 +22,7 @@ void check_options(const RelaxOptions& options) {
               "relax.polish_rounds = ", options.polish_rounds, ": must be in 0..100000.");
   DELOS_CHECK(options.target_quality > 0.0 && options.target_quality < 1.0, ErrorKind::config,
               "relax.target_quality = ", options.target_quality,
-              ": must be above 0 and below 1 (0.93 is the default).");
+              ": must be above 0 and below 1 (0.94 is the default).");
 }
 
 void relax_springs(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kLeastGain = 2e-4;  // of the worst score, for a mended patch to be taken
 constexpr int kSpringSweeps = 12;    // after a topological change: the patch finds a new balance
-constexpr int kSmoothSweeps = 8;     // spread what climbing has pushed together
+constexpr int kSmoothSweeps = 3;     // spread what climbing has pushed together
 constexpr double kMargin = 1e-3;     // climbed past the target, so that rounding does not undo it
 constexpr int kClimbRounds = 3;      // hill climbing and flips in turn
 

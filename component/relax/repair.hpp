@@ -8,7 +8,7 @@
 namespace delos {
 
 struct RepairOptions {
-  double enough = 0.93;          ///< score that every triangle is to reach
+  double enough = 0.94;          ///< score that every triangle is to reach
   bool change_topology = false;  ///< whether vertices may be removed and inserted
 };
 
