@@ -111,8 +111,11 @@ LonLat Ellipsoid::lon_lat(const Vec3& p, LatitudeKind kind) const {
 }
 
 Vec3 Ellipsoid::point(const LonLat& lon_lat, LatitudeKind kind) const {
-  const elementary::SinCos lon = elementary::sincos(lon_lat.lon_rad);
-  const elementary::SinCos lat = elementary::sincos(lon_lat.lat_rad);
+  return point(elementary::sincos(lon_lat.lon_rad), elementary::sincos(lon_lat.lat_rad), kind);
+}
+
+Vec3 Ellipsoid::point(const elementary::SinCos& lon, const elementary::SinCos& lat,
+                      LatitudeKind kind) const {
   const Vec3 direction(lat.cos * lon.cos, lat.cos * lon.sin, lat.sin);
   switch (kind) {
     case LatitudeKind::geodetic:

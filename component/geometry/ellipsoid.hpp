@@ -8,6 +8,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "core/elementary.hpp"
 #include "core/types.hpp"
 
 namespace delos {
@@ -55,6 +56,8 @@ class Ellipsoid {
 
   LonLat lon_lat(const Vec3& p, LatitudeKind kind) const;
   Vec3 point(const LonLat& lon_lat, LatitudeKind kind) const;
+  /// The same from sines and cosines, for loops over the nodes of a table.
+  Vec3 point(const elementary::SinCos& lon, const elementary::SinCos& lat, LatitudeKind kind) const;
 
   /// Centre of the surface Delaunay ball of three surface points (Engwirda 2015, section 2.4):
   /// where the line of points equidistant from them meets the surface on their side. a, b, c

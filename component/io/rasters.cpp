@@ -20,6 +20,9 @@ namespace {
 /// Values of one level at most: 43 200 x 21 600 (30 arc seconds) fits, in 7.5 GB.
 constexpr std::size_t kMaxValues = std::size_t{1} << 30;
 
+/// Rows per block of a loop over them.
+constexpr std::int64_t kRowGrain = 16;
+
 /// A variable with its axes sorted out: what every level is read with.
 struct Field {
   const netcdf::Reader& file;
@@ -166,34 +169,36 @@ bool is_in_file_order(const OrderedAxis& axis, std::size_t n_file) {
 }
 
 /// The values of one level, rows and columns in the raster's order.
-std::vector<double> read_level(const Field& field, const std::vector<std::size_t>& start,
-                               std::size_t& n_valid) {
+Array<double> read_level(parallel::Executor& exec, const Field& field,
+                         const std::vector<std::size_t>& start, std::size_t& n_valid) {
   const std::size_t n_lat_file = field.variable.dimensions[field.lat].length;
   const std::size_t n_lon_file = field.variable.dimensions[field.lon].length;
   std::vector<std::size_t> count(field.variable.rank(), 1);
   count[field.lat] = n_lat_file;
   count[field.lon] = n_lon_file;
-  std::vector<double> stored(n_lat_file * n_lon_file);
+  Array<double> stored(n_lat_file * n_lon_file);
   field.file.read(field.variable.name, start, count, stored);
-  n_valid = unpack(field.unpacking, stored);
+  n_valid = unpack(exec, field.unpacking, stored);
   const bool lat_first = field.lat < field.lon;
   if (lat_first && is_in_file_order(field.rows, n_lat_file) &&
       is_in_file_order(field.columns, n_lon_file)) {
     return stored;
   }
-  std::vector<double> values;
-  values.reserve(field.rows.file_rows.size() * field.columns.file_rows.size());
+  const std::size_t n_lon = field.columns.file_rows.size();
+  Array<double> values(field.rows.file_rows.size() * n_lon);
   const std::size_t row_stride = lat_first ? n_lon_file : 1;
   const std::size_t column_stride = lat_first ? 1 : n_lat_file;
-  for (const std::size_t row : field.rows.file_rows) {
-    for (const std::size_t column : field.columns.file_rows) {
-      values.push_back(stored[row * row_stride + column * column_stride]);
-    }
-  }
+  const auto n_rows = static_cast<std::int64_t>(field.rows.file_rows.size());
+  parallel::for_index(exec, n_rows, kRowGrain, [&](std::int64_t row) {
+    const auto j = static_cast<std::size_t>(row);
+    const double* from = stored.data() + field.rows.file_rows[j] * row_stride;
+    double* to = values.data() + j * n_lon;
+    for (const std::size_t column : field.columns.file_rows) *to++ = from[column * column_stride];
+  });
   return values;
 }
 
-Raster make_raster(const Field& field, std::vector<double> values) {
+Raster make_raster(const Field& field, Array<double> values) {
   return {field.file.path() + ":" + field.variable.name, field.rows.values_deg,
           field.columns.values_deg, std::move(values), field.columns.periodic};
 }
@@ -224,16 +229,18 @@ std::vector<double> read_depths_m(const Field& field, std::size_t axis) {
 
 }  // namespace
 
-Raster read_raster(const std::string& path, const RasterRequest& request) {
+Raster read_raster(parallel::Executor& exec, const std::string& path,
+                   const RasterRequest& request) {
   const netcdf::Reader file(path);
   const Field field = open_field(file, request);
   std::size_t n_valid = 0;
-  std::vector<double> values = read_level(field, level_start(field, request), n_valid);
+  Array<double> values = read_level(exec, field, level_start(field, request), n_valid);
   check_not_all_missing(field, n_valid);
   return make_raster(field, std::move(values));
 }
 
-RasterStack read_raster_stack(const std::string& path, const RasterRequest& request) {
+RasterStack read_raster_stack(parallel::Executor& exec, const std::string& path,
+                              const RasterRequest& request) {
   const netcdf::Reader file(path);
   const Field field = open_field(file, request);
   const auto vertical = find_axis(field.axes, AxisKind::vertical);
@@ -253,13 +260,23 @@ RasterStack read_raster_stack(const std::string& path, const RasterRequest& requ
                 field.where, ": two levels at ", depth_m[level], " m depth. Remove one.");
     one_level.level_index = level;
     std::size_t n_valid = 0;
-    std::vector<double> values = read_level(field, level_start(field, one_level), n_valid);
+    Array<double> values = read_level(exec, field, level_start(field, one_level), n_valid);
     n_valid_in_all += n_valid;
     stack.depth_m.push_back(depth_m[level]);
     stack.levels.push_back(make_raster(field, std::move(values)));
   }
   check_not_all_missing(field, n_valid_in_all);
   return stack;
+}
+
+Raster read_raster(const std::string& path, const RasterRequest& request) {
+  parallel::Executor exec(1);
+  return read_raster(exec, path, request);
+}
+
+RasterStack read_raster_stack(const std::string& path, const RasterRequest& request) {
+  parallel::Executor exec(1);
+  return read_raster_stack(exec, path, request);
 }
 
 }  // namespace delos

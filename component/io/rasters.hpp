@@ -25,9 +25,15 @@ struct RasterRequest {
 /// missing_value, valid_min, valid_max, valid_range, NaN). Accepted: either order of latitudes, any
 /// range of longitudes of at most 360 degrees plus one column, (lat, lon) or (lon, lat), uneven
 /// latitudes, cell centres or nodes. Error(input) with file, variable and reason for all the rest.
-Raster read_raster(const std::string& path, const RasterRequest& request);
+/// The C library reads on one thread; what follows, unpacking and reordering, is parallel.
+Raster read_raster(parallel::Executor& exec, const std::string& path, const RasterRequest& request);
 
 /// All levels of a variable with a depth dimension, shallowest first.
+RasterStack read_raster_stack(parallel::Executor& exec, const std::string& path,
+                              const RasterRequest& request);
+
+/// The same on the calling thread alone.
+Raster read_raster(const std::string& path, const RasterRequest& request);
 RasterStack read_raster_stack(const std::string& path, const RasterRequest& request);
 
 }  // namespace delos

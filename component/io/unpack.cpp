@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <optional>
 
@@ -14,6 +15,8 @@ namespace {
 using netcdf::Type;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
+/// Values per block: a tenth of a millisecond.
+constexpr std::int64_t kUnpackGrain = std::int64_t{1} << 15;
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// What writers leave where nothing was put (netCDF User Guide, "Fill values").
@@ -94,6 +97,22 @@ double wrap_of_unsigned(const netcdf::Reader& file, const netcdf::Variable& vari
   return variable.type == Type::int32 ? 4294967296.0 : 0.0;
 }
 
+std::size_t unpack_some(const Unpacking& u, const std::vector<double>& missing,
+                        std::span<double> values) {
+  std::size_t n_valid = 0;
+  for (double& value : values) {
+    bool is_missing = !std::isfinite(value);
+    for (const double fill : missing) is_missing = is_missing || value == fill;
+    if (value < 0.0) value += u.unsigned_wrap;
+    is_missing = is_missing || value < u.valid_min || value > u.valid_max;
+    value = u.scale * value + u.offset;
+    is_missing = is_missing || value < u.valid_min_unpacked || value > u.valid_max_unpacked;
+    value = is_missing ? kNaN : u.units.scale * value + u.units.offset;
+    n_valid += is_missing ? 0 : 1;
+  }
+  return n_valid;
+}
+
 }  // namespace
 
 Unpacking read_unpacking(const netcdf::Reader& file, const netcdf::Variable& variable) {
@@ -119,24 +138,18 @@ Unpacking read_unpacking(const netcdf::Reader& file, const netcdf::Variable& var
   return unpacking;
 }
 
-std::size_t unpack(const Unpacking& unpacking, std::span<double> values) {
-  const Unpacking& u = unpacking;
+std::size_t unpack(parallel::Executor& exec, const Unpacking& unpacking, std::span<double> values) {
   // Only the distinct fills: usually one.
-  std::vector<double> missing = u.missing;
+  std::vector<double> missing = unpacking.missing;
   std::sort(missing.begin(), missing.end());
   missing.erase(std::unique(missing.begin(), missing.end()), missing.end());
-  std::size_t n_valid = 0;
-  for (double& value : values) {
-    bool is_missing = !std::isfinite(value);
-    for (const double fill : missing) is_missing = is_missing || value == fill;
-    if (value < 0.0) value += u.unsigned_wrap;
-    is_missing = is_missing || value < u.valid_min || value > u.valid_max;
-    value = u.scale * value + u.offset;
-    is_missing = is_missing || value < u.valid_min_unpacked || value > u.valid_max_unpacked;
-    value = is_missing ? kNaN : u.units.scale * value + u.units.offset;
-    n_valid += is_missing ? 0 : 1;
-  }
-  return n_valid;
+  const auto count_in = [&](std::int64_t begin, std::int64_t end) {
+    return unpack_some(
+        unpacking, missing,
+        values.subspan(static_cast<std::size_t>(begin), static_cast<std::size_t>(end - begin)));
+  };
+  return parallel::reduce(exec, static_cast<std::int64_t>(values.size()), kUnpackGrain,
+                          std::size_t{0}, count_in, std::plus<>());
 }
 
 UnitConversion file_unit_conversion(const netcdf::Reader& file, const std::string& variable,

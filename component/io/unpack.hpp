@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/parallel.hpp"
 #include "io/field_units.hpp"
 #include "io/netcdf.hpp"
 
@@ -28,7 +29,7 @@ Unpacking read_unpacking(const netcdf::Reader& file, const netcdf::Variable& var
 
 /// In place: stored numbers become values in the wanted unit, NaN where missing or not finite.
 /// Returns how many are not missing.
-std::size_t unpack(const Unpacking& unpacking, std::span<double> values);
+std::size_t unpack(parallel::Executor& exec, const Unpacking& unpacking, std::span<double> values);
 
 /// From the unit of the file (its `units` attribute unless `file_units` overrides it) to the wanted
 /// one; identity when `wanted` is empty. Error(input) when that can't be done.

@@ -33,8 +33,9 @@ Sized size(Context& context, const Settings& settings, const SpacingRecipe& reci
     return {build_spacing(context, settings.surface, recipe), std::nullopt};
   }
   LatLonField table_m = build_spacing_table(context, settings.surface, recipe);
-  Sized out{is_constant(recipe) ? build_spacing(context, settings.surface, recipe)
-                                : SpacingField::table(settings.surface, recipe.latitude, table_m),
+  Sized out{is_constant(recipe)
+                ? build_spacing(context, settings.surface, recipe)
+                : SpacingField::table(context.exec, settings.surface, recipe.latitude, table_m),
             std::nullopt};
   if (settings.output.spacing) out.table_m = std::move(table_m);
   return out;
@@ -76,7 +77,7 @@ Mesh triangulate(Context& context, const Settings& settings, const SpacingField&
     Mesh mesh =
         build_baseline(context, settings.generator, settings.surface, settings.subdivisions);
     context.monitor.advance(mesh.n_vertices());
-    spacing.evaluate(mesh.vertices);
+    spacing.evaluate(context.exec, mesh.vertices);
     return mesh;
   }
   RefineReport refined;

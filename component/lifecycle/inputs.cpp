@@ -84,7 +84,7 @@ std::shared_ptr<const Raster> InputReader::raster(const FileRequest& request) {
   const std::string path = path_of(request);
   context_.monitor.advance(1);
   return with_key(request.where, [&] {
-    return std::make_shared<const Raster>(read_raster(path, request.raster));
+    return std::make_shared<const Raster>(read_raster(context_.exec, path, request.raster));
   });
 }
 
@@ -92,7 +92,8 @@ std::shared_ptr<const RasterStack> InputReader::stack(const FileRequest& request
   const std::string path = path_of(request);
   context_.monitor.advance(1);
   return with_key(request.where, [&] {
-    return std::make_shared<const RasterStack>(read_raster_stack(path, request.raster));
+    return std::make_shared<const RasterStack>(
+        read_raster_stack(context_.exec, path, request.raster));
   });
 }
 
@@ -151,19 +152,21 @@ void InputReader::add_bathymetry(const BathymetrySettings& bathymetry) {
   FileRequest request = bathymetry.field;
   const bool is_automatic = request.file == "auto";
   if (is_automatic) request.file = kAutomaticBathymetry;
-  Raster elevation;
+  std::shared_ptr<const Raster> elevation;
   if (is_automatic && !has_file(request)) {
-    elevation = embedded_bathymetry();
+    elevation = std::make_shared<const Raster>(embedded_bathymetry());
     out_.bathymetry = "embedded ETOPO5 at 0.5 degree";
   } else {
-    elevation = *raster(request);
-    out_.bathymetry = elevation.source;
+    elevation = raster(request);
+    out_.bathymetry = elevation->source;
   }
   if (!bathymetry.sea_is_negative) {
-    for (double& value : elevation.values) value = 0.0 - value;
+    auto turned = std::make_shared<Raster>(*elevation);
+    for (double& value : turned->values) value = 0.0 - value;
+    elevation = turned;
   }
   context_.monitor.log(LogLevel::info, text("bathymetry: ", out_.bathymetry));
-  out_.recipe.elevation_m = std::make_shared<const Raster>(std::move(elevation));
+  out_.recipe.elevation_m = std::move(elevation);
 }
 
 }  // namespace

@@ -140,19 +140,21 @@ void check_profile(const LatitudeProfileSource& source) {
 
 }  // namespace
 
-void fill_constant(const ConstantSource& source, LatLonField& field) {
+void fill_constant(parallel::Executor& exec, const ConstantSource& source, LatLonField& field) {
   DELOS_CHECK(std::isfinite(source.spacing_m) && source.spacing_m > 0.0, ErrorKind::config,
               "constant spacing is ", source.spacing_m, " m: it must be finite and > 0");
-  std::fill(field.values.begin(), field.values.end(), source.spacing_m);
+  for_rows(exec, field,
+           [&](Index, double* values) { std::fill_n(values, field.n_lon, source.spacing_m); });
 }
 
-void fill_latitude_profile(const LatitudeProfileSource& source, LatLonField& field) {
+void fill_latitude_profile(parallel::Executor& exec, const LatitudeProfileSource& source,
+                           LatLonField& field) {
   check_profile(source);
   const std::vector<double> slope = monotone_slopes(source.lat_deg, source.spacing_m);
-  for (Index row = 0; row < field.n_rows(); ++row) {
-    const double h = profile_at(source, slope, 180.0 * row / field.n_lat_cells - 90.0);
-    std::fill_n(field.values.data() + field.at(row, 0), field.n_lon, h);
-  }
+  for_rows(exec, field, [&](Index row, double* values) {
+    std::fill_n(values, field.n_lon,
+                profile_at(source, slope, 180.0 * row / field.n_lat_cells - 90.0));
+  });
 }
 
 void fill_disc(parallel::Executor& exec, const DiscSource& source, LatLonField& field) {

@@ -57,8 +57,9 @@ struct PolygonSource {
 
 /// Each writes metres on the nodes of `field` (its size says which nodes). Error(config) for an
 /// option out of range.
-void fill_constant(const ConstantSource& source, LatLonField& field);
-void fill_latitude_profile(const LatitudeProfileSource& source, LatLonField& field);
+void fill_constant(parallel::Executor& exec, const ConstantSource& source, LatLonField& field);
+void fill_latitude_profile(parallel::Executor& exec, const LatitudeProfileSource& source,
+                           LatLonField& field);
 void fill_disc(parallel::Executor& exec, const DiscSource& source, LatLonField& field);
 void fill_box(parallel::Executor& exec, const BoxSource& source, LatLonField& field);
 void fill_polygon(parallel::Executor& exec, const PolygonSource& source, LatLonField& field);

@@ -56,7 +56,8 @@ void fill_slope(parallel::Executor& exec, const Ellipsoid& surface, LatitudeKind
               source.max_m, " m: it must be > 0");
   to_depth(exec, source.min_depth_m, field);
   smooth(exec, source.smooth_rad, field);
-  const LatLonField depth = field;
+  const LatLonField depth = std::move(field);
+  resize_like(depth, field);
   const TableMetric metric(exec, surface, latitude, field);
   for_rows(exec, field, [&](Index row, double* values) {
     for (Index i = 0; i < field.n_lon; ++i) {

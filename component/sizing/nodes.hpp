@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Small tools of this layer: loops over the rows of a table, directions of its nodes, poles.
+#include <string>
 #include <vector>
 
 #include "core/elementary.hpp"
@@ -22,6 +23,18 @@ void for_rows(parallel::Executor& exec, LatLonField& field, Body&& body) {
     body(j, field.values.data() + field.at(j, 0));
   });
 }
+
+/// Takes the size of `like`; the values are left unset.
+void resize_like(const LatLonField& like, LatLonField& field);
+
+/// to = scale * from, node by node, on tables of one size (which may be the same).
+void scale_into(parallel::Executor& exec, double scale, const LatLonField& from, LatLonField& to);
+
+/// The first node in row-major order whose value is not finite and > 0; the number of nodes when
+/// there is none.
+std::size_t first_not_positive(parallel::Executor& exec, const LatLonField& field);
+/// "lon 12.5, lat -30 deg" of a node, for messages.
+std::string place_of(const LatLonField& field, std::size_t node);
 
 /// Sine and cosine of every row and column; the unit vector of a node from two of them.
 struct NodeDirections {
@@ -55,8 +68,8 @@ struct TableMetric {
     return is_triaxial ? field.at(row, column) : static_cast<std::size_t>(row);
   }
   bool is_triaxial;
-  std::vector<double> dx, dy;
-  std::vector<double> cosine;  ///< of the angle between the eastward and the northward step
+  Array<double> dx, dy;
+  Array<double> cosine;  ///< of the angle between the eastward and the northward step
 
  private:
   void measure_rows(const Ellipsoid& surface, LatitudeKind latitude, const LatLonField& field);

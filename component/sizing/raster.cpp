@@ -193,6 +193,12 @@ void add_border(const LatLonField& field, const NodeDirections& nodes, Index row
 }  // namespace
 
 LatLonField make_table(double resolution_rad) {
+  LatLonField field = unset_table(resolution_rad);
+  std::fill(field.values.begin(), field.values.end(), 0.0);
+  return field;
+}
+
+LatLonField unset_table(double resolution_rad) {
   DELOS_CHECK(std::isfinite(resolution_rad) && resolution_rad > 0.0, ErrorKind::config,
               "resolution of the spacing table is ", resolution_rad, " rad: it must be > 0");
   // The slack keeps 1/12 degree, inexact in binary, at 2160 rows.
@@ -203,8 +209,8 @@ LatLonField make_table(double resolution_rad) {
   LatLonField field;
   field.n_lat_cells = std::max<Index>(static_cast<Index>(rows), 2);
   field.n_lon = 2 * field.n_lat_cells;
-  field.values.assign(
-      static_cast<std::size_t>(field.n_rows()) * static_cast<std::size_t>(field.n_lon), 0.0);
+  field.values.resize(static_cast<std::size_t>(field.n_rows()) *
+                      static_cast<std::size_t>(field.n_lon));
   return field;
 }
 
@@ -233,10 +239,10 @@ void sample(parallel::Executor& exec, const Raster& raster, LatLonField& field) 
   unify_poles(field);
 }
 
-void fill_value(double value, LatLonField& field) {
-  for (double& node : field.values) {
-    if (std::isnan(node)) node = value;
-  }
+void fill_value(parallel::Executor& exec, double value, LatLonField& field) {
+  for_rows(exec, field, [&](Index, double* values) {
+    for (Index i = 0; i < field.n_lon; ++i) values[i] = std::isnan(values[i]) ? value : values[i];
+  });
 }
 
 void fill_nearest(parallel::Executor& exec, const std::string& source, LatLonField& field) {

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "core/array.hpp"
 #include "core/parallel.hpp"
 #include "core/types.hpp"
 #include "sizing/spacing.hpp"
@@ -14,7 +15,7 @@ struct Raster {
   std::string source;           ///< "file:variable" (or "built in"), for messages
   std::vector<double> lat_deg;  ///< strictly ascending, possibly uneven, within [-90, 90]
   std::vector<double> lon_deg;  ///< strictly ascending, possibly uneven, spans at most 360 degrees
-  std::vector<double> values;   ///< [n_lat, n_lon] row-major, unpacked; NaN where missing
+  Array<double> values;         ///< [n_lat, n_lon] row-major, unpacked; NaN where missing
   bool periodic = false;        ///< the columns go round the globe (no column is repeated)
 
   std::size_t n_lat() const { return lat_deg.size(); }
@@ -43,6 +44,8 @@ struct PolygonSet {
 /// A table of zeros whose rows and columns are at most `resolution_rad` apart (n_lon is twice
 /// n_lat_cells). Error(resource) beyond 2^31 nodes.
 LatLonField make_table(double resolution_rad);
+/// The same with its values left unset, for a loop that sets them in parallel.
+LatLonField unset_table(double resolution_rad);
 
 /// Mean distance of rows or columns (rad), the smaller.
 double resolution_rad(const Raster& raster);
@@ -57,7 +60,7 @@ void sample(parallel::Executor& exec, const Raster& raster, LatLonField& field);
 /// Replaces NaN by the value of the nearest valid node (spherical distance, lowest row-major
 /// node among equals). Error(input) naming `source` when nothing is valid.
 void fill_nearest(parallel::Executor& exec, const std::string& source, LatLonField& field);
-void fill_value(double value, LatLonField& field);
+void fill_value(parallel::Executor& exec, double value, LatLonField& field);
 
 /// Gaussian mean on the unit sphere with standard deviation `sigma_rad`; NaN takes no part and
 /// stays NaN. The heat equation, implicit, alternating between rows and columns in fixed steps.

@@ -62,24 +62,19 @@ void check_recipe(const SpacingRecipe& recipe) {
               ": it must be > 0");
 }
 
-void check_values(const std::string& name, const LatLonField& field) {
-  for (Index row = 0; row < field.n_rows(); ++row) {
-    for (Index i = 0; i < field.n_lon; ++i) {
-      const double h = field.values[field.at(row, i)];
-      DELOS_CHECK(std::isfinite(h) && h > 0.0, ErrorKind::input, name, ": spacing is ", h,
-                  " m at lon ", field.lon_rad(i) * kDegPerRad, ", lat ",
-                  field.lat_rad(row) * kDegPerRad,
-                  " deg: it must be finite and > 0; check the variable, its units and the value "
-                  "for missing data");
-    }
-  }
+void check_values(parallel::Executor& exec, const std::string& name, const LatLonField& field) {
+  const std::size_t node = first_not_positive(exec, field);
+  DELOS_CHECK(node == field.values.size(), ErrorKind::input, name, ": spacing is ",
+              field.values[node], " m at ", place_of(field, node),
+              ": it must be finite and > 0; check the variable, its units and the value for "
+              "missing data");
 }
 
 void fill_raster(parallel::Executor& exec, const RasterSource& source, LatLonField& field) {
   DELOS_CHECK(source.raster != nullptr, ErrorKind::config, "raster source has no raster");
   sample(exec, *source.raster, field);
-  for (double& value : field.values) value *= source.metres_per_unit;
-  source.missing_m ? fill_value(*source.missing_m, field)
+  scale_into(exec, source.metres_per_unit, field, field);
+  source.missing_m ? fill_value(exec, *source.missing_m, field)
                    : fill_nearest(exec, source.raster->source, field);
 }
 
@@ -91,26 +86,27 @@ class Builder {
         exec_(context.exec),
         surface_(surface),
         recipe_(recipe),
-        combined_(make_table(recipe.resolution_rad > 0.0
-                                 ? recipe.resolution_rad
-                                 : default_resolution_rad(surface, recipe))) {}
+        combined_(unset_table(recipe.resolution_rad > 0.0
+                                  ? recipe.resolution_rad
+                                  : default_resolution_rad(surface, recipe))) {}
 
   LatLonField build() {
     sample_elevation();
     combine_sources();
     smooth(exec_, recipe_.smooth_rad, combined_);
-    return recipe_.cells > 0 ? meet_budget() : finish(1.0);
+    recipe_.cells > 0 ? meet_budget() : finish(1.0);
+    return std::move(finished_);
   }
 
  private:
   void sample_elevation();
   void combine_sources();
   void fill(const SpacingSource& source, LatLonField& field);
-  LatLonField finish(double scale);
-  LatLonField meet_budget();
-  double count(const LatLonField& field) const {
+  void finish(double scale);
+  void meet_budget();
+  double count() const {
     return expected_vertices(exec_, surface_,
-                             SpacingField::table(surface_, recipe_.latitude, field));
+                             SpacingField::table(exec_, surface_, recipe_.latitude, finished_));
   }
 
   Context& context_;
@@ -119,31 +115,32 @@ class Builder {
   const SpacingRecipe& recipe_;
   LatLonField combined_;
   LatLonField elevation_;
+  LatLonField finished_;
 };
 
 void Builder::sample_elevation() {
   const bool is_used = recipe_.land_spacing_m ||
                        std::any_of(recipe_.sources.begin(), recipe_.sources.end(), needs_elevation);
   if (!is_used) return;
-  elevation_ = combined_;
+  resize_like(combined_, elevation_);
   sample(exec_, *recipe_.elevation_m, elevation_);
   fill_nearest(exec_, recipe_.elevation_m->source, elevation_);
 }
 
 void Builder::fill(const SpacingSource& source, LatLonField& field) {
   std::visit(Overloaded{
-                 [&](const ConstantSource& s) { fill_constant(s, field); },
-                 [&](const LatitudeProfileSource& s) { fill_latitude_profile(s, field); },
+                 [&](const ConstantSource& s) { fill_constant(exec_, s, field); },
+                 [&](const LatitudeProfileSource& s) { fill_latitude_profile(exec_, s, field); },
                  [&](const RasterSource& s) { fill_raster(exec_, s, field); },
                  [&](const DiscSource& s) { fill_disc(exec_, s, field); },
                  [&](const BoxSource& s) { fill_box(exec_, s, field); },
                  [&](const PolygonSource& s) { fill_polygon(exec_, s, field); },
                  [&](const SlopeSource& s) {
-                   field.values = elevation_.values;
+                   scale_into(exec_, 1.0, elevation_, field);
                    fill_slope(exec_, surface_, recipe_.latitude, s, field);
                  },
                  [&](const TidalSource& s) {
-                   field.values = elevation_.values;
+                   scale_into(exec_, 1.0, elevation_, field);
                    fill_tidal(exec_, s, field);
                  },
                  [&](const CoastSource& s) {
@@ -156,7 +153,8 @@ void Builder::fill(const SpacingSource& source, LatLonField& field) {
 }
 
 void Builder::combine_sources() {
-  LatLonField next = combined_;
+  LatLonField next;
+  resize_like(combined_, next);
   for (std::size_t k = 0; k < recipe_.sources.size(); ++k) {
     const SpacingSource& source = recipe_.sources[k];
     context_.monitor.check_cancelled();
@@ -165,35 +163,34 @@ void Builder::combine_sources() {
     } catch (const Error& error) {
       throw Error(error.kind(), text(source.name, ": ", error.what()));
     }
-    check_values(source.name, next);
+    check_values(exec_, source.name, next);
     combine_into(exec_, recipe_.combine, k, next, combined_);
     context_.monitor.advance(1);
   }
 }
 
-LatLonField Builder::finish(double scale) {
-  LatLonField field = combined_;
-  for (double& value : field.values) value *= scale;
-  if (recipe_.clamp) clamp(exec_, *recipe_.clamp, field);
+void Builder::finish(double scale) {
+  resize_like(combined_, finished_);
+  scale_into(exec_, scale, combined_, finished_);
+  if (recipe_.clamp) clamp(exec_, *recipe_.clamp, finished_);
   // A budget may make land finer than asked, never coarser.
   if (recipe_.land_spacing_m) {
-    set_land(exec_, elevation_, *recipe_.land_spacing_m * std::min(scale, 1.0), field);
+    set_land(exec_, elevation_, *recipe_.land_spacing_m * std::min(scale, 1.0), finished_);
   }
   if (recipe_.gradient_limit > 0.0) {
-    limit_gradient(context_, surface_, recipe_.latitude, recipe_.gradient_limit, field);
+    limit_gradient(context_, surface_, recipe_.latitude, recipe_.gradient_limit, finished_);
   }
-  return field;
 }
 
 /// The count falls with the scale, about as its inverse square: steps by that law, kept inside the
 /// bracket known so far.
-LatLonField Builder::meet_budget() {
+void Builder::meet_budget() {
   const auto wanted = static_cast<double>(recipe_.cells);
   double low = 1.0 / kLargestScale, high = kLargestScale, scale = 1.0, n = 0.0;
   for (int round = 0; round < kBudgetRounds; ++round) {
-    LatLonField field = finish(scale);
-    n = count(field);
-    if (std::abs(n / wanted - 1.0) <= kBudgetTolerance) return field;
+    finish(scale);
+    n = count();
+    if (std::abs(n / wanted - 1.0) <= kBudgetTolerance) return;
     (n > wanted ? low : high) = scale;
     const double next = scale * std::sqrt(n / wanted);
     const bool is_inside = next > low && next < high;
@@ -206,10 +203,10 @@ LatLonField Builder::meet_budget() {
 }
 
 double constant_spacing_m(const SpacingRecipe& recipe) {
-  LatLonField total = make_table(0.5 * kPi), next = total;
   parallel::Executor exec(1);
+  LatLonField total = make_table(0.5 * kPi), next = total;
   for (std::size_t k = 0; k < recipe.sources.size(); ++k) {
-    fill_constant(std::get<ConstantSource>(recipe.sources[k].source), next);
+    fill_constant(exec, std::get<ConstantSource>(recipe.sources[k].source), next);
     combine_into(exec, recipe.combine, k, next, total);
   }
   if (recipe.clamp) clamp(exec, *recipe.clamp, total);
@@ -251,7 +248,7 @@ SpacingField build_spacing(Context& context, const Ellipsoid& surface,
                            const SpacingRecipe& recipe) {
   check_recipe(recipe);
   if (!is_constant(recipe)) {
-    return SpacingField::table(surface, recipe.latitude,
+    return SpacingField::table(context.exec, surface, recipe.latitude,
                                build_spacing_table(context, surface, recipe));
   }
   SpacingField field = SpacingField::constant(surface, constant_spacing_m(recipe));

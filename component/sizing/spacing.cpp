@@ -7,6 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "sizing/nodes.hpp"
 
 namespace delos {
 namespace {
@@ -17,6 +18,8 @@ constexpr std::size_t kBatch = 256;
 constexpr std::size_t kLanes = 8;
 /// Rows of table cells per block of the integral; part of the answer.
 constexpr std::int64_t kIntegralGrain = 8;
+/// Vertices per block of a parallel lookup: some batches.
+constexpr std::int64_t kLookupGrain = 16 * kBatch;
 
 /// Coefficients in u^2 of atan(u) / u, interpolated at Chebyshev nodes on |u| <= tan(pi/8);
 /// |error| < 3e-13 rad.
@@ -111,8 +114,8 @@ double inverse_square_mean(double a0, double b0, double a1, double b1) {
 struct SpacingField::Table {
   Lookup lookup;
   LatitudeKind latitude;
-  Index n_rows, n_columns;     ///< n_columns = n_lon + 1: the first column again at the end
-  std::vector<double> values;  ///< scaled
+  Index n_rows, n_columns;  ///< n_columns = n_lon + 1: the first column again at the end
+  Array<double> values;     ///< scaled
 
   inline double value(Place at) const {
     const Index row = std::min(static_cast<Index>(at.row), n_rows - 2);
@@ -128,20 +131,37 @@ struct SpacingField::Table {
 
 namespace {
 
-void check_table(const LatLonField& field) {
+void check_table(parallel::Executor& exec, const LatLonField& field) {
   DELOS_CHECK(field.n_lat_cells >= 1 && field.n_lon >= 1 &&
                   field.values.size() == static_cast<std::size_t>(field.n_rows()) *
                                              static_cast<std::size_t>(field.n_lon),
               ErrorKind::input, "spacing table of ", field.n_rows(), " x ", field.n_lon,
               " nodes holds ", field.values.size(), " values: give one value a node");
-  for (Index row = 0; row < field.n_rows(); ++row) {
-    for (Index column = 0; column < field.n_lon; ++column) {
-      const double h = field.values[field.at(row, column)];
-      DELOS_CHECK(std::isfinite(h) && h > 0.0, ErrorKind::input, "spacing is ", h, " m at lon ",
-                  field.lon_rad(column) * kDegPerRad, ", lat ", field.lat_rad(row) * kDegPerRad,
-                  " deg: it must be finite and > 0; clamp it or fill the missing values");
-    }
+  const std::size_t node = first_not_positive(exec, field);
+  DELOS_CHECK(node == field.values.size(), ErrorKind::input, "spacing is ", field.values[node],
+              " m at ", place_of(field, node),
+              ": it must be finite and > 0; clamp it or fill the missing values");
+}
+
+/// A row of the finished table, with the first column again at its end; the least and the greatest
+/// of it.
+std::pair<double, double> fill_row(const LatLonField& spacing_m, Index row, double scale_m,
+                                   double* to) {
+  const Index n = spacing_m.n_lon;
+  const double* from = spacing_m.values.data() + spacing_m.at(row, 0);
+  if (row == 0 || row == spacing_m.n_lat_cells) {
+    // One point, one value: the finest of a pole's row counts for the pole.
+    std::fill_n(to, n, *std::min_element(from, from + n) / scale_m);
+  } else {
+    for (Index i = 0; i < n; ++i) to[i] = from[i] / scale_m;
   }
+  to[n] = to[0];
+  std::pair<double, double> bounds{to[0], to[0]};
+  for (Index i = 1; i < n; ++i) {
+    bounds.first = std::min(bounds.first, to[i]);
+    bounds.second = std::max(bounds.second, to[i]);
+  }
+  return bounds;
 }
 
 }  // namespace
@@ -157,7 +177,13 @@ SpacingField SpacingField::constant(const Ellipsoid& surface, double spacing_m) 
 
 SpacingField SpacingField::table(const Ellipsoid& surface, LatitudeKind latitude,
                                  const LatLonField& spacing_m) {
-  check_table(spacing_m);
+  parallel::Executor exec(1);
+  return table(exec, surface, latitude, spacing_m);
+}
+
+SpacingField SpacingField::table(parallel::Executor& exec, const Ellipsoid& surface,
+                                 LatitudeKind latitude, const LatLonField& spacing_m) {
+  check_table(exec, spacing_m);
   auto table = std::make_shared<Table>();
   const Index n_lon = spacing_m.n_lon;
   table->latitude = latitude;
@@ -166,23 +192,21 @@ SpacingField SpacingField::table(const Ellipsoid& surface, LatitudeKind latitude
   table->lookup = {direction_weight(surface, latitude), n_lon / (2.0 * kPi),
                    spacing_m.n_lat_cells / kPi, static_cast<double>(n_lon),
                    static_cast<double>(spacing_m.n_lat_cells)};
-  table->values.resize(static_cast<std::size_t>(table->n_rows) * table->n_columns);
+  table->values.resize(static_cast<std::size_t>(table->n_rows) *
+                       static_cast<std::size_t>(table->n_columns));
 
   SpacingField field;
   field.scale_m_ = surface.scale_m();
+  std::vector<std::pair<double, double>> bounds(static_cast<std::size_t>(table->n_rows));
+  parallel::for_index(exec, table->n_rows, kRowGrain, [&](std::int64_t row) {
+    bounds[static_cast<std::size_t>(row)] =
+        fill_row(spacing_m, static_cast<Index>(row), field.scale_m_,
+                 table->values.data() + row * table->n_columns);
+  });
   field.min_ = std::numeric_limits<double>::infinity();
-  for (Index row = 0; row < table->n_rows; ++row) {
-    double* to = table->values.data() + static_cast<std::size_t>(row) * table->n_columns;
-    const double* from = spacing_m.values.data() + spacing_m.at(row, 0);
-    // One point, one value: the finest of a pole's row counts for the pole.
-    const bool is_pole = row == 0 || row == table->n_rows - 1;
-    const double pole = *std::min_element(from, from + n_lon);
-    for (Index column = 0; column < n_lon; ++column) {
-      to[column] = (is_pole ? pole : from[column]) / field.scale_m_;
-      field.min_ = std::min(field.min_, to[column]);
-      field.max_ = std::max(field.max_, to[column]);
-    }
-    to[n_lon] = to[0];
+  for (const auto& [least, greatest] : bounds) {
+    field.min_ = std::min(field.min_, least);
+    field.max_ = std::max(field.max_, greatest);
   }
   field.table_ = std::move(table);
   return field;
@@ -219,6 +243,14 @@ void SpacingField::evaluate(std::span<Vertex> vertices) const {
     }
     for (std::size_t i = 0; i < n; ++i) batch[i].spacing = table.value({column[i], row[i]});
   }
+}
+
+void SpacingField::evaluate(parallel::Executor& exec, std::span<Vertex> vertices) const {
+  parallel::for_range(exec, static_cast<std::int64_t>(vertices.size()), kLookupGrain,
+                      [&](std::int64_t begin, std::int64_t end) {
+                        evaluate(vertices.subspan(static_cast<std::size_t>(begin),
+                                                  static_cast<std::size_t>(end - begin)));
+                      });
 }
 
 LatitudeKind SpacingField::latitude() const {

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "core/array.hpp"
 #include "core/parallel.hpp"
 #include "core/types.hpp"
 #include "geometry/ellipsoid.hpp"
@@ -18,7 +19,7 @@ namespace delos {
 struct LatLonField {
   Index n_lat_cells = 0;
   Index n_lon = 0;
-  std::vector<double> values;
+  Array<double> values;
 
   Index n_rows() const { return n_lat_cells + 1; }
   double lat_rad(Index row) const { return kPi * (static_cast<double>(row) / n_lat_cells - 0.5); }
@@ -38,6 +39,9 @@ class SpacingField {
   static SpacingField constant(const Ellipsoid& surface, double spacing_m);
   /// Table in metres; the one place where metres become scaled units. Error(input) with lon/lat
   /// of the first value that is not finite and > 0.
+  static SpacingField table(parallel::Executor& exec, const Ellipsoid& surface,
+                            LatitudeKind latitude, const LatLonField& spacing_m);
+  /// The same on the calling thread alone.
   static SpacingField table(const Ellipsoid& surface, LatitudeKind latitude,
                             const LatLonField& spacing_m);
 
@@ -45,6 +49,7 @@ class SpacingField {
   double at(double x, double y, double z) const;
   /// The same for many: vertices[i].spacing = at(vertices[i]); several times faster per point.
   void evaluate(std::span<Vertex> vertices) const;
+  void evaluate(parallel::Executor& exec, std::span<Vertex> vertices) const;
 
   bool is_constant() const { return table_ == nullptr; }
   /// Least and greatest scaled spacing.

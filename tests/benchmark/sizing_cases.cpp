@@ -260,8 +260,9 @@ std::vector<Kernel> field_kernels(const Inputs& in) {
   return {
       {"spin", spin},
       {"field",
-       [&in, sphere](parallel::Executor&, Outputs& out) {
-         const SpacingField made = SpacingField::table(sphere, LatitudeKind::geodetic, in.wavy_m);
+       [&in, sphere](parallel::Executor& exec, Outputs& out) {
+         const SpacingField made =
+             SpacingField::table(exec, sphere, LatitudeKind::geodetic, in.wavy_m);
          out.number = made.at(0.6, 0.48, 0.64);
          return size_of(in.wavy_m);
        }},
@@ -313,8 +314,8 @@ std::vector<Kernel> source_kernels(const Inputs& in) {
          fill_box(exec, {-60.0, 10.0, 20.0, 60.0, edge}, field);
        }),
        &in.wavy_m},
-      {"profile", on_field([](Exec&, LatLonField& field) {
-         fill_latitude_profile({{-90.0, 0.0, 90.0}, {60e3, 30e3, 60e3}, true}, field);
+      {"profile", on_field([](Exec& exec, LatLonField& field) {
+         fill_latitude_profile(exec, {{-90.0, 0.0, 90.0}, {60e3, 30e3, 60e3}, true}, field);
        }),
        &in.wavy_m},
       {"sample",
@@ -398,8 +399,8 @@ std::string write_elevation(const testing::TemporaryFolder& folder, const Raster
 /// Reading from files written beforehand, from the system's cache.
 std::vector<Kernel> file_kernels(const Inputs& in, const testing::TemporaryFolder& folder) {
   const auto read = [](const std::string& path) -> Run {
-    return [path](parallel::Executor&, Outputs& out) {
-      out.raster = read_raster(path, {});
+    return [path](parallel::Executor& exec, Outputs& out) {
+      out.raster = read_raster(exec, path, {});
       return static_cast<std::int64_t>(out.raster.values.size());
     };
   };

@@ -119,7 +119,7 @@ TEST_CASE("check_mesh.py accepts UGRID triangles and the spacing with them") {
     const Mesh mesh = sample_mesh(body);
     delos::write_ugrid_triangles(folder.file("a.nc"), mesh, {body.surface, LatitudeKind::geodetic},
                                  delos::samples::provenance());
-    delos::LatLonField field{90, 180, std::vector<double>(91 * 180)};
+    delos::LatLonField field{90, 180, delos::Array<double>(91 * 180)};
     field.values.assign(field.values.size(), mesh.vertices[0].spacing * body.surface.scale_m());
     delos::write_spacing(folder.file("h.nc"), field, {});
     const bool in_file = std::string(body.name) != "triaxial";

@@ -28,9 +28,10 @@ PolygonSet square(double west, double east, double south, double north) {
 }  // namespace
 
 TEST_CASE("a latitude profile passes through its points and stays between them") {
+  parallel::Executor exec(2);
   LatLonField field = make_table(1.0 * kRadPerDeg);
   for (const bool cubic : {false, true}) {
-    fill_latitude_profile({{-60, 0, 20, 60}, {30e3, 60e3, 60e3, 20e3}, cubic}, field);
+    fill_latitude_profile(exec, {{-60, 0, 20, 60}, {30e3, 60e3, 60e3, 20e3}, cubic}, field);
     CHECK(value_at(field, 10, -80) == doctest::Approx(30e3));
     CHECK(value_at(field, 10, 0) == doctest::Approx(60e3));
     CHECK(value_at(field, -170, 10) == doctest::Approx(60e3));
@@ -40,10 +41,10 @@ TEST_CASE("a latitude profile passes through its points and stays between them")
     }
   }
   testing::expect_error(ErrorKind::config, {"ascend"}, [&] {
-    fill_latitude_profile({{10, 0}, {1e3, 1e3}}, field);
+    fill_latitude_profile(exec, {{10, 0}, {1e3, 1e3}}, field);
   });
   testing::expect_error(ErrorKind::config, {"-5", "> 0"}, [&] {
-    fill_latitude_profile({{0, 10}, {-5, 1e3}}, field);
+    fill_latitude_profile(exec, {{0, 10}, {-5, 1e3}}, field);
   });
 }
 
