@@ -19,6 +19,8 @@ constexpr Index kTileColumns = 256;
 constexpr Index kPolarRows = 48;
 /// |grad h|^2 may exceed slope^2 by this much: far below the scheme's error, far above rounding.
 constexpr double kSlack = 1.0e-8;
+/// Relative error of the kernels for skew steps, some hundred roundings.
+constexpr double kRounding = 1.0e-13;
 
 struct Tile {
   Index row_begin, row_end, column_begin, column_end;
@@ -67,6 +69,20 @@ inline double upwind_skew(double a, double b, const Corner& corner, double slope
   return is_inside ? std::min(u, along) : along;
 }
 
+/// False when upwind_skew() is certainly not below v: v is within reach along both sides, and
+/// |grad|^2 of the linear h with v at the node is below slope^2 by more than upwind_skew() may err.
+/// Everything is multiplied by dx^2 dy^2 sin^2, so that nothing is divided.
+inline bool may_be_below(double v, double a, double b, const Corner& corner, double slope) {
+  const auto [dx, dy, cosine] = corner;
+  if (v > a + slope * dx || v > b + slope * dy) return true;
+  if (v <= a || v <= b) return false;
+  const double xx = dx * dx, yy = dy * dy, xy = cosine * dx * dy, p = v - a, q = v - b;
+  const double gradient2 = yy * p * p + xx * q * q - 2.0 * xy * p * q;
+  const double sum = xx + yy - 2.0 * xy, most = xx + yy + 2.0 * std::abs(xy);
+  const double bound = slope * slope * xx * yy * (1.0 - cosine * cosine) * (1.0 - kRounding);
+  return gradient2 * sum + kRounding * most * most * v * v > bound * sum;
+}
+
 class Limiter {
  public:
   Limiter(TableMetric metric, double slope, LatLonField& field)
@@ -108,13 +124,19 @@ void Limiter::build_tiles() {
   n_tile_columns_ = std::max<Index>(2, n_lon_ / (2 * kTileColumns) * 2);
   n_tile_rows_ = (n_rows + kTileRows - 1) / kTileRows;
   const bool is_apart = n_tile_rows_ > 0;
+  // A checkerboard. The odd tiles beside the polar ones come first, so that the two polar tiles,
+  // some ten times as long as others, are swept together with all the other odd ones.
+  const auto colour_of = [&](Index r, Index c) {
+    const bool is_beside_polar = r == 0 || r == n_tile_rows_ - 1;
+    return (r + c) % 2 == 0 ? 0 : is_beside_polar ? 1 : 2;
+  };
   tiles_.push_back({0, south, 0, n_lon_, 2});
   for (Index r = 0; r < n_tile_rows_; ++r) {
     for (Index c = 0; c < n_tile_columns_; ++c) {
       tiles_.push_back({south + n_rows * r / n_tile_rows_, south + n_rows * (r + 1) / n_tile_rows_,
                         static_cast<Index>(std::int64_t{n_lon_} * c / n_tile_columns_),
                         static_cast<Index>(std::int64_t{n_lon_} * (c + 1) / n_tile_columns_),
-                        (r + c) % 2});
+                        colour_of(r, c)});
     }
   }
   tiles_.push_back({south + n_rows, last_row_ + 1, 0, n_lon_, is_apart ? 2 : 3});
@@ -176,13 +198,22 @@ bool Limiter::limit_node(Index j, Index i) {
   const std::size_t node = field_.at(j, i);
   const double dx = metric_.dx[node], dy = metric_.dy[node], cosine = metric_.cosine[node];
   const double* here = row(j);
-  const double s = row(j - 1)[i], n = row(j + 1)[i];
-  double best = upwind_skew(here[east], n, {dx, dy, cosine}, slope_);
-  best = std::min(best, upwind_skew(here[west], n, {dx, dy, -cosine}, slope_));
-  best = std::min(best, upwind_skew(here[west], s, {dx, dy, cosine}, slope_));
-  best = std::min(best, upwind_skew(here[east], s, {dx, dy, -cosine}, slope_));
+  const double s = row(j - 1)[i], n = row(j + 1)[i], e = here[east], w = here[west], u = here[i];
   // Along the shorter step the slack of the other kernel, as a length.
-  if (!(best < here[i] - kSlack * slope_ * std::min(dx, dy))) return false;
+  const double enough = u - kSlack * slope_ * std::min(dx, dy);
+  const double v = enough + kRounding * u;
+  double best = enough;
+  const auto try_corner = [&](double a, double b, double cosine_between) {
+    const Corner corner{dx, dy, cosine_between};
+    if (may_be_below(v, a, b, corner, slope_)) {
+      best = std::min(best, upwind_skew(a, b, corner, slope_));
+    }
+  };
+  try_corner(e, n, cosine);
+  try_corner(w, n, -cosine);
+  try_corner(w, s, cosine);
+  try_corner(e, s, -cosine);
+  if (!(best < enough)) return false;
   field_.values[node] = best;
   return true;
 }
@@ -252,6 +283,9 @@ GradientLimitReport Limiter::run(Context& context) {
       for (std::size_t t = 0; t < tiles_.size(); ++t) {
         if (is_due_[t] && tiles_[t].colour == colour) due.push_back(t);
       }
+      // One long tile begins the list, the other goes to where a second thread begins.
+      if (due.size() > 2 && due.back() + 1 == tiles_.size())
+        std::swap(due.back(), due[due.size() / 2]);
       std::vector<Sides> sides(due.size());
       parallel::for_index(context.exec, static_cast<std::int64_t>(due.size()), 1,
                           [&](std::int64_t k) {
