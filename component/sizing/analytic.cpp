@@ -25,6 +25,8 @@ void check_edge(const RegionEdge& edge) {
               " deg: it must be >= 0");
 }
 
+double square(double x) { return x * x; }
+
 /// Spacing at the distance d (rad) outside the edge; d <= 0 is inside.
 double spacing_at(const RegionEdge& edge, double d) {
   if (d <= 0.0) return edge.spacing_m;
@@ -38,19 +40,77 @@ double spacing_at(const RegionEdge& edge, double d) {
   return edge.spacing_m + (edge.outside_m - edge.spacing_m) * share;
 }
 
-/// Great-circle angle from p to the meridian `lon` between two latitudes.
-double angle_to_meridian(const Vec3& p, double lon_deg, double south_deg, double north_deg) {
-  const elementary::SinCos lon = elementary::sincos(lon_deg * kRadPerDeg);
-  const double forward = p[0] * lon.cos + p[1] * lon.sin;  // in the half plane of the meridian
-  const double across = p[1] * lon.cos - p[0] * lon.sin;
-  const double lat_deg = elementary::atan2(p[2], forward) * kDegPerRad;
-  if (forward > 0.0 && lat_deg >= south_deg && lat_deg <= north_deg) {
-    return elementary::asin(std::abs(across));
+/// The distance beyond which spacing_at() is `outside` to the last bit, and its squared chord: what
+/// most nodes of a global table are beyond, so that no angle is needed for them.
+struct Reach {
+  explicit Reach(const RegionEdge& edge, double radius_rad = 0.0);
+  bool is_beyond(double chord2) const { return chord2 > chord2_; }
+
+ private:
+  double chord2_ = 5.0;  ///< above the longest: no node is beyond
+};
+
+Reach::Reach(const RegionEdge& edge, double radius_rad) {
+  double widths = 1.0;
+  if (edge.transition == Transition::gaussian) {
+    // exp(-t^2 / 2) times the difference must vanish against a quarter of outside's last bit.
+    const double share = std::abs(edge.outside_m - edge.spacing_m) / edge.outside_m;
+    widths = std::sqrt(2.0 * std::max(elementary::log(0x1p56 * std::max(share, 1e-300)), 0.0));
   }
-  const double south = (p - unit_vector(lon_deg, south_deg)).squaredNorm();
-  const double north = (p - unit_vector(lon_deg, north_deg)).squaredNorm();
-  return angle_of_chord2(std::min(south, north));
+  // Well above the rounding of chords and angles, and away from the antipode, where a chord says
+  // little about the angle.
+  constexpr double kMargin = 1.0e-9, kFarthest = 3.0;
+  const double angle = radius_rad + widths * edge.width_rad + kMargin;
+  if (angle < kFarthest) chord2_ = square(2.0 * elementary::sin(0.5 * angle)) * (1.0 + kMargin);
 }
+
+/// Great-circle distance to a piece of a meridian.
+class MeridianPiece {
+ public:
+  MeridianPiece(double lon_deg, double south_deg, double north_deg)
+      : south_deg_(south_deg),
+        north_deg_(north_deg),
+        lon_(elementary::sincos(lon_deg * kRadPerDeg)),
+        south_lat_(elementary::sincos(south_deg * kRadPerDeg)),
+        north_lat_(elementary::sincos(north_deg * kRadPerDeg)),
+        south_(unit_vector(lon_deg, south_deg)),
+        north_(unit_vector(lon_deg, north_deg)) {}
+
+  /// The place of a direction p as to the piece: abreast of it, or nearest to one of its ends.
+  struct View {
+    bool is_abreast;
+    double measure;  ///< |sine| of the angle when abreast, else squared chord
+    double angle() const {
+      return is_abreast ? elementary::asin(measure) : angle_of_chord2(measure);
+    }
+    /// Not above the squared chord.
+    double least_chord2() const { return is_abreast ? measure * measure : measure; }
+  };
+  View view(const Vec3& p) const {
+    const double forward = p[0] * lon_.cos + p[1] * lon_.sin;  // in the half plane of the meridian
+    if (forward > 0.0 && is_between(p[2], forward)) {
+      return {true, std::abs(p[1] * lon_.cos - p[0] * lon_.sin)};
+    }
+    return {false, std::min((p - south_).squaredNorm(), (p - north_).squaredNorm())};
+  }
+
+ private:
+  /// Whether the latitude atan2(up, forward) is between the ends; the sines of the differences say
+  /// so but for roundings.
+  bool is_between(double up, double forward) const {
+    constexpr double kSure = 1.0e-13;
+    const double above_south = up * south_lat_.cos - forward * south_lat_.sin;
+    const double below_north = forward * north_lat_.sin - up * north_lat_.cos;
+    if (std::min(above_south, below_north) > kSure) return true;
+    if (std::min(above_south, below_north) < -kSure) return false;
+    const double lat_deg = elementary::atan2(up, forward) * kDegPerRad;
+    return lat_deg >= south_deg_ && lat_deg <= north_deg_;
+  }
+
+  double south_deg_, north_deg_;
+  elementary::SinCos lon_, south_lat_, north_lat_;
+  Vec3 south_, north_;
+};
 
 double turn_into(double lon_deg, double west_deg) {
   return lon_deg - 360.0 * std::floor((lon_deg - west_deg) / 360.0);
@@ -74,9 +134,30 @@ PolygonRing closed_ring(const PolygonRing& ring) {
   return closed;
 }
 
+struct ClosedRing {
+  PolygonRing ring;
+  double south_deg, north_deg;
+};
+
+std::vector<ClosedRing> close_rings(parallel::Executor& exec, const PolygonSet& polygons) {
+  std::vector<ClosedRing> rings(polygons.rings.size());
+  parallel::for_index(exec, static_cast<std::int64_t>(rings.size()), 1, [&](std::int64_t r) {
+    ClosedRing& closed = rings[static_cast<std::size_t>(r)];
+    closed = {closed_ring(polygons.rings[static_cast<std::size_t>(r)]), 90.0, -90.0};
+    for (const double lat : closed.ring.lat_deg) {
+      closed.south_deg = std::min(closed.south_deg, lat);
+      closed.north_deg = std::max(closed.north_deg, lat);
+    }
+  });
+  return rings;
+}
+
 /// Longitudes where the ring crosses a parallel, ascending; always an even number.
-std::vector<double> crossings(const PolygonRing& ring, double lat) {
+std::vector<double> crossings(const ClosedRing& closed, double lat) {
   std::vector<double> lon;
+  // A side counts when it begins at or below the parallel and ends above, or the other way.
+  if (lat < closed.south_deg || lat >= closed.north_deg) return lon;
+  const PolygonRing& ring = closed.ring;
   for (std::size_t k = 1; k < ring.lon_deg.size(); ++k) {
     const double a = ring.lat_deg[k - 1], b = ring.lat_deg[k];
     if ((a <= lat) == (b <= lat)) continue;
@@ -166,10 +247,13 @@ void fill_disc(parallel::Executor& exec, const DiscSource& source, LatLonField& 
               " deg: the radius must be >= 0, the latitude within [-90, 90] deg");
   const NodeDirections nodes(field);
   const Vec3 centre = unit_vector(source.lon_deg, source.lat_deg);
+  const Reach reach(source.edge, source.radius_rad);
   for_rows(exec, field, [&](Index row, double* values) {
     for (Index i = 0; i < field.n_lon; ++i) {
-      const double angle = angle_of_chord2((nodes.direction(row, i) - centre).squaredNorm());
-      values[i] = spacing_at(source.edge, angle - source.radius_rad);
+      const double chord2 = (nodes.direction(row, i) - centre).squaredNorm();
+      values[i] = reach.is_beyond(chord2)
+                      ? source.edge.outside_m
+                      : spacing_at(source.edge, angle_of_chord2(chord2) - source.radius_rad);
     }
   });
 }
@@ -183,19 +267,23 @@ void fill_box(parallel::Executor& exec, const BoxSource& source, LatLonField& fi
   const bool is_ring = source.east_deg - source.west_deg >= 360.0;
   const double width = is_ring ? 360.0 : turn_into(source.east_deg - source.west_deg, 0.0);
   const NodeDirections nodes(field);
+  const MeridianPiece west(source.west_deg, source.south_deg, source.north_deg);
+  const MeridianPiece east(source.east_deg, source.south_deg, source.north_deg);
+  const Reach reach(source.edge);
   for_rows(exec, field, [&](Index row, double* values) {
     const double lat = 180.0 * row / field.n_lat_cells - 90.0;
     const double off = std::max(std::max(source.south_deg - lat, lat - source.north_deg), 0.0);
     for (Index i = 0; i < field.n_lon; ++i) {
       const double lon = turn_into(360.0 * i / field.n_lon - 180.0, source.west_deg);
-      double distance = off * kRadPerDeg;
-      if (lon - source.west_deg > width) {
-        const Vec3 p = nodes.direction(row, i);
-        distance =
-            std::min(angle_to_meridian(p, source.west_deg, source.south_deg, source.north_deg),
-                     angle_to_meridian(p, source.east_deg, source.south_deg, source.north_deg));
+      if (lon - source.west_deg <= width) {
+        values[i] = spacing_at(source.edge, off * kRadPerDeg);
+        continue;
       }
-      values[i] = spacing_at(source.edge, distance);
+      const Vec3 p = nodes.direction(row, i);
+      const MeridianPiece::View to_west = west.view(p), to_east = east.view(p);
+      values[i] = reach.is_beyond(std::min(to_west.least_chord2(), to_east.least_chord2()))
+                      ? source.edge.outside_m
+                      : spacing_at(source.edge, std::min(to_west.angle(), to_east.angle()));
     }
   });
 }
@@ -203,8 +291,7 @@ void fill_box(parallel::Executor& exec, const BoxSource& source, LatLonField& fi
 std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& polygons,
                                   const LatLonField& like) {
   std::vector<char> inside(like.values.size(), 0);
-  std::vector<PolygonRing> rings;
-  for (const PolygonRing& ring : polygons.rings) rings.push_back(closed_ring(ring));
+  const std::vector<ClosedRing> rings = close_rings(exec, polygons);
   // A pole itself belongs to what lies just beside it.
   constexpr double kNearPole = 90.0 - 1.0e-6;
   parallel::for_index(exec, like.n_rows(), kRowGrain, [&](std::int64_t j) {
@@ -212,14 +299,19 @@ std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& po
     const double lat = 180.0 * row / like.n_lat_cells - 90.0;
     char* const row_inside = inside.data() + like.at(row, 0);
     std::vector<char> of_one(static_cast<std::size_t>(like.n_lon), 0);
+    bool is_crossed = false;
     for (std::size_t r = 0; r < rings.size(); ++r) {
       const std::vector<double> lon = crossings(rings[r], std::clamp(lat, -kNearPole, kNearPole));
       for (std::size_t k = 0; k + 1 < lon.size(); k += 2) {
         flip_columns(lon[k], lon[k + 1], like.n_lon, of_one.data());
       }
-      if (r + 1 < rings.size() && rings[r + 1].polygon == rings[r].polygon) continue;
+      is_crossed = is_crossed || !lon.empty();
+      const bool is_last =
+          r + 1 == rings.size() || rings[r + 1].ring.polygon != rings[r].ring.polygon;
+      if (!is_crossed || !is_last) continue;
       for (std::size_t i = 0; i < of_one.size(); ++i) row_inside[i] |= of_one[i];
       std::fill(of_one.begin(), of_one.end(), 0);
+      is_crossed = false;
     }
   });
   return inside;
@@ -235,7 +327,7 @@ void fill_polygon(parallel::Executor& exec, const PolygonSource& source, LatLonF
                        (source.edge.transition == Transition::gaussian ? kGaussianReach : 1.0);
   // Side points twice as dense as the table: distances true to a quarter of a cell.
   const double step = 0.5 * kPi / field.n_lat_cells;
-  distance_to_points(exec, coast_points(*source.polygons, step), reach, field);
+  distance_to_points(exec, coast_points(exec, *source.polygons, step), reach, field);
   for_rows(exec, field, [&](Index row, double* values) {
     for (Index i = 0; i < field.n_lon; ++i) {
       const bool is_inside = inside[field.at(row, i)] != 0;

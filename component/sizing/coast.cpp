@@ -11,6 +11,9 @@
 namespace delos {
 namespace {
 
+/// Sides of a ring per block.
+constexpr std::int64_t kSideGrain = 256;
+
 /// Whether a coast lies between two elevations; a missing one bounds nothing.
 bool is_coast(double a, double b) { return (a >= 0.0 && b < 0.0) || (b >= 0.0 && a < 0.0); }
 
@@ -54,25 +57,29 @@ void add_side(const PolygonRing& ring, std::size_t a, std::size_t b, double step
 }  // namespace
 
 std::vector<Vec3> coast_points(parallel::Executor& exec, const Raster& elevation_m) {
-  std::vector<std::vector<Vec3>> of_row(elevation_m.n_lat());
-  parallel::for_index(exec, static_cast<std::int64_t>(elevation_m.n_lat()), kRowGrain,
-                      [&](std::int64_t row) {
-                        const auto at = static_cast<std::size_t>(row);
-                        add_row(elevation_m, at, of_row[at]);
-                      });
-  std::vector<Vec3> points;
-  for (const std::vector<Vec3>& row : of_row) points.insert(points.end(), row.begin(), row.end());
-  return points;
+  return parallel::collect<Vec3>(
+      exec, static_cast<std::int64_t>(elevation_m.n_lat()), kRowGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Vec3>& found) {
+        for (std::int64_t row = begin; row < end; ++row) {
+          add_row(elevation_m, static_cast<std::size_t>(row), found);
+        }
+      });
 }
 
-std::vector<Vec3> coast_points(const PolygonSet& polygons, double step_rad) {
+std::vector<Vec3> coast_points(parallel::Executor& exec, const PolygonSet& polygons,
+                               double step_rad) {
   DELOS_ASSERT(step_rad > 0.0);
   std::vector<Vec3> points;
   for (const PolygonRing& ring : polygons.rings) {
     const std::size_t n = ring.lon_deg.size();
-    for (std::size_t k = 0; k < n; ++k) {
-      add_side(ring, k, k + 1 == n ? 0 : k + 1, step_rad * kDegPerRad, points);
-    }
+    const std::vector<Vec3> of_ring = parallel::collect<Vec3>(
+        exec, static_cast<std::int64_t>(n), kSideGrain,
+        [&](std::int64_t begin, std::int64_t end, std::vector<Vec3>& found) {
+          for (auto k = static_cast<std::size_t>(begin); k < static_cast<std::size_t>(end); ++k) {
+            add_side(ring, k, k + 1 == n ? 0 : k + 1, step_rad * kDegPerRad, found);
+          }
+        });
+    points.insert(points.end(), of_ring.begin(), of_ring.end());
   }
   return points;
 }
@@ -101,9 +108,9 @@ void fill_coast(parallel::Executor& exec, const Ellipsoid& surface, const CoastS
   DELOS_CHECK(source.land || elevation_m, ErrorKind::config,
               "coast criterion has neither land polygons nor a bathymetry: give one");
   // Side points twice as dense as the table: distances true to a quarter of a cell.
-  const std::vector<Vec3> points = source.land
-                                       ? coast_points(*source.land, 0.5 * kPi / field.n_lat_cells)
-                                       : coast_points(exec, *elevation_m);
+  const std::vector<Vec3> points =
+      source.land ? coast_points(exec, *source.land, 0.5 * kPi / field.n_lat_cells)
+                  : coast_points(exec, *elevation_m);
   DELOS_CHECK(!points.empty(), ErrorKind::input,
               source.land ? source.land->source : elevation_m->source,
               " has no coast: no elevation changes sign, or there is no polygon");

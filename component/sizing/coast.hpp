@@ -24,7 +24,8 @@ struct CoastSource {
 /// neighbouring nodes of its raster (missing = no coast).
 std::vector<Vec3> coast_points(parallel::Executor& exec, const Raster& elevation_m);
 /// The same of polygons: their sides (straight in lon-lat) cut to at most `step_rad`.
-std::vector<Vec3> coast_points(const PolygonSet& polygons, double step_rad);
+std::vector<Vec3> coast_points(parallel::Executor& exec, const PolygonSet& polygons,
+                               double step_rad);
 
 /// Great-circle angle (rad) from each node of the table to the nearest of the points, exact to
 /// rounding; `cutoff_rad` where none is nearer. A k-d tree: the poles and the date line are

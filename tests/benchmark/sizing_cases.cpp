@@ -187,6 +187,27 @@ Inputs make_inputs(parallel::Executor& exec) {
   return in;
 }
 
+/// Wavy islands of half a degree to 8 degrees, 1000 sides each.
+std::shared_ptr<PolygonSet> islands() {
+  auto set = std::make_shared<PolygonSet>();
+  set->source = "benchmark";
+  for (Index k = 0; k < 300; ++k) {
+    const auto id = static_cast<std::uint64_t>(k);
+    const double lon = 360.0 * uniform01(1, id) - 180.0, lat = 150.0 * uniform01(2, id) - 75.0;
+    const double size = uniform01(3, id), radius = 0.5 + 7.5 * size * size * size;
+    PolygonRing ring;
+    ring.polygon = k;
+    for (int side = 0; side < 1000; ++side) {
+      const double angle = 2.0 * kPi * side / 1000.0;
+      const double r = radius * (1.0 + 0.2 * elementary::sin(9.0 * angle));
+      ring.lon_deg.push_back(lon + r * elementary::cos(angle));
+      ring.lat_deg.push_back(lat + r * elementary::sin(angle));
+    }
+    set->rings.push_back(ring);
+  }
+  return set;
+}
+
 double seconds_of(const std::function<void()>& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
@@ -312,6 +333,10 @@ std::vector<Kernel> source_kernels(const Inputs& in) {
        &in.wavy_m},
       {"box", on_field([edge](Exec& exec, LatLonField& field) {
          fill_box(exec, {-60.0, 10.0, 20.0, 60.0, edge}, field);
+       }),
+       &in.wavy_m},
+      {"polygon", on_field([land = islands()](Exec& exec, LatLonField& field) {
+         fill_polygon(exec, {land, {15e3, 150e3, 0.05, Transition::smooth}}, field);
        }),
        &in.wavy_m},
       {"profile", on_field([](Exec& exec, LatLonField& field) {

@@ -5,6 +5,7 @@
 
 #include <cmath>
 
+#include "sizing/nodes.hpp"
 #include "support/expect_error.hpp"
 
 using namespace delos;
@@ -68,6 +69,27 @@ TEST_CASE("transitions have their formulas") {
   CHECK(value_at(field, 18.0, 0.0) == doctest::Approx(150e3 - 135e3 * std::exp(-0.5)));
   fill_disc(exec, {0.0, 0.0, 10.0 * kRadPerDeg, edge(0.0, Transition::smooth)}, field);
   CHECK(value_at(field, 11.0, 0.0) == doctest::Approx(150e3));
+}
+
+TEST_CASE("where a disc does not reach, nodes have what its formula gives, to the last bit") {
+  parallel::Executor exec(2);
+  LatLonField field = make_table(2.0 * kRadPerDeg);
+  const NodeDirections nodes(field);
+  const Vec3 centre = unit_vector(-40.0, 35.0);
+  for (const double outside_m : {240e3, 41e3, 40e3, 10e3}) {
+    for (const double width : {0.01, 0.2, 2.0}) {
+      const RegionEdge gaussian{40e3, outside_m, width, Transition::gaussian};
+      fill_disc(exec, {-40.0, 35.0, 0.1, gaussian}, field);
+      for (Index row = 0; row < field.n_rows(); ++row) {
+        for (Index i = 0; i < field.n_lon; ++i) {
+          const double angle = angle_of_chord2((nodes.direction(row, i) - centre).squaredNorm());
+          const double t = (angle - 0.1) / width;
+          const double h = outside_m - (outside_m - 40e3) * elementary::exp(-0.5 * t * t);
+          REQUIRE(field.values[field.at(row, i)] == (t <= 0.0 ? 40e3 : h));
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("a box may cross the date line and measures distance on the sphere") {
