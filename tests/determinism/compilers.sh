@@ -69,7 +69,14 @@ sizing:
   sources:
     - {type: box, west: 0 deg, east: 60 deg, south: -20 deg, north: 30 deg, spacing: 100 km, outside: 600 km, transition: linear, width: 0 deg}
 YAML
-cases=(sphere wgs84 triaxial patch data flat contrast step)
+config pole <<'YAML'
+sizing:
+  resolution: 1 deg
+  gradient_limit: 0.15
+  sources:
+    - {type: disc, centre: [77 deg, -90 deg], radius: 4 deg, spacing: 80 km, outside: 700 km, transition: gaussian, width: 12 deg}
+YAML
+cases=(sphere wgs84 triaxial patch data flat contrast step pole)
 
 mapfile -t cache < <(compiler_cache)
 for build in "${builds[@]}"; do

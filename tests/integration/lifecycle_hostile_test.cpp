@@ -9,42 +9,14 @@
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
-#include "io/netcdf.hpp"
-#include "lifecycle/generate.hpp"
-#include "lifecycle/settings_tree.hpp"
+#include "support/products.hpp"
 #include "support/temporary_folder.hpp"
-#include "triangulation/validate.hpp"
 
 using namespace delos;
+using testing::checked;
+using testing::made;
 
 namespace {
-
-Product made(const std::string& yaml, int threads, const std::string& folder = ".") {
-  parallel::Executor exec(threads);
-  Monitor monitor;
-  Context context{exec, monitor};
-  return generate(context, read_settings(parse_config(yaml, "hostile.yaml"), folder), {});
-}
-
-/// Valid, and the same to the last bit on 1, 2, 5 and 8 threads.
-Product checked(const std::string& yaml, const std::string& folder = ".") {
-  CAPTURE(yaml);
-  Product product = made(yaml, 1, folder);
-  ValidateOptions options;
-  options.delaunay = false;  // judged by the measured count below
-  const auto defects = validate(product.mesh, product.settings.surface, options);
-  CHECK_MESSAGE(defects.empty(), summary(defects));
-  const Quality& quality = product.report.quality;
-  CHECK(quality.n_non_delaunay == 0);
-  CHECK(quality.euler == 2);
-  CHECK(quality.n_degenerate == 0);
-  CHECK(quality.total_area_error < 1e-12);
-  for (const int threads : {2, 5, 8}) {
-    CAPTURE(threads);
-    CHECK(made(yaml, threads, folder).report.digest == product.report.digest);
-  }
-  return product;
-}
 
 void check_count(const Product& product, double tolerance) {
   const auto n = static_cast<double>(product.report.quality.n_vertices);
@@ -76,31 +48,11 @@ std::string disc(const std::string& centre, const std::string& more) {
 constexpr char kGaussian[] =
     "radius: 4 deg, spacing: 80 km, outside: 700 km, transition: gaussian, width: 12 deg";
 
-/// A raster of 1 degree whose nodes are 300 km times a random number in 0.3 .. 3.
-std::string write_noise(const testing::TemporaryFolder& folder) {
-  constexpr std::size_t kRows = 180, kColumns = 360;
-  const std::string path = folder.file("noise.nc");
-  netcdf::Writer file(path, netcdf::Format::cdf5);
-  const auto lat = file.define_dimension("lat", kRows),
-             lon = file.define_dimension("lon", kColumns);
-  const auto lat_id = file.define_variable("lat", netcdf::Type::float64, {lat});
-  const auto lon_id = file.define_variable("lon", netcdf::Type::float64, {lon});
-  const auto h_id = file.define_variable("h", netcdf::Type::float64, {lat, lon});
-  file.attribute(lat_id, "units", "degrees_north");
-  file.attribute(lon_id, "units", "degrees_east");
-  file.attribute(h_id, "units", "km");
-  file.end_definitions();
-  std::vector<double> lats(kRows), lons(kColumns), h(kRows * kColumns);
-  for (std::size_t i = 0; i < kRows; ++i) lats[i] = -89.5 + static_cast<double>(i);
-  for (std::size_t i = 0; i < kColumns; ++i) lons[i] = -179.5 + static_cast<double>(i);
-  for (std::size_t i = 0; i < h.size(); ++i) {
-    h[i] = 300.0 * (0.3 + 2.7 * uniform01(11, static_cast<std::uint64_t>(i)));
-  }
-  file.put(lat_id, std::span<const double>(lats));
-  file.put(lon_id, std::span<const double>(lons));
-  file.put(h_id, std::span<const double>(h));
-  file.close();
-  return path;
+/// Nodes of 300 km times a random number in 0.3 .. 3, a degree apart.
+void write_noise(const testing::TemporaryFolder& folder) {
+  testing::write_field(folder.file("noise.nc"), {"h", "km", 180}, [](std::uint64_t node, auto...) {
+    return 300.0 * (0.3 + 2.7 * uniform01(11, node));
+  });
 }
 
 ErrorKind kind_of_error(const std::string& yaml) {
