@@ -22,10 +22,12 @@ if grep -rlF -e "$build" -e "$(dirname "$(dirname "$here")")" "$work/prefix" --i
   echo "the files above name the build or source tree" >&2
   exit 1
 fi
+echo "sizing: {sources: [{type: constant, spacing: 600 km}]}" >"$work/grid.yaml"
 cmake -S "$here/consumer" -B "$work/build" -DCMAKE_PREFIX_PATH="$work/prefix" -DCMAKE_BUILD_TYPE="$type" >/dev/null
 cmake --build "$work/build" -j 2 >/dev/null
 "$work/build/consumer"
 "$work/build/c_consumer"
+"$work/build/bmi_consumer" "$work/grid.yaml"
 if compgen -G "$work/prefix/include/delos/fortran/delos.mod" >/dev/null; then
   "$work/build/fortran_consumer"
 fi
