@@ -21,17 +21,18 @@ BELOW = {
     "refine": ["sizing", "triangulation", "geometry", "core"],
     "relax": ["sizing", "triangulation", "geometry", "core"],
     "dual": ["triangulation", "geometry", "core"],
+    "partition": ["dual", "triangulation", "geometry", "core"],
     "metrics": ["dual", "sizing", "triangulation", "geometry", "core"],
     "io": ["dual", "sizing", "triangulation", "geometry", "core"],
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
-    "lifecycle": ["io", "metrics", "dual", "relax", "refine", "sizing", "triangulation",
+    "lifecycle": ["io", "metrics", "partition", "dual", "relax", "refine", "sizing", "triangulation",
                   "geometry", "time", "core"],
     "app": ["lifecycle", "pictures", "io", "metrics", "dual", "relax", "refine", "sizing",
             "triangulation", "geometry", "time", "core"],
 }
 # What adapters may name: the phase functions and what these hand over.
-INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "dual", "sizing", "triangulation",
-                          "geometry", "time", "core"]
+INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "partition", "dual", "sizing",
+                          "triangulation", "geometry", "time", "core"]
 # Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
 NO_LAYERS = ["cmake", "performance"]
 # Layers whose code is on the path from configuration to grid: no libm there.
@@ -44,6 +45,7 @@ HOMES = [
     ("yaml-cpp", r"\bYAML::|#include\s*[<\"]yaml-cpp", ["component/lifecycle/settings"]),
     ("cairo", r"\bcairo_\w+|#include\s*[<\"]cairo", ["component/pictures/canvas.cpp"]),
     ("OpenSSL", r"\bEVP_\w+|#include\s*[<\"]openssl", ["component/core/hash.cpp"]),
+    ("METIS", r"\bMETIS_\w+|#include\s*[<\"]metis", ["component/partition/kway.cpp"]),
     ("CLI11", r"\bCLI::|#include\s*[<\"]CLI/", ["component/app/"]),
 ]
 
@@ -183,6 +185,7 @@ PLANTED = [
     ("yaml-cpp", "component/lifecycle/bad.cpp", "YAML::Node node;\n"),
     ("cairo", "component/pictures/bad.cpp", "cairo_t* c;\nvoid f() { cairo_fill(c); }\n"),
     ("OpenSSL", "component/io/bad.cpp", "#include <openssl/evp.h>\n"),
+    ("METIS", "component/partition/bad.cpp", "#include <metis.h>\n"),
     ("CLI11", "component/lifecycle/bad.cpp", "#include <CLI/CLI.hpp>\n"),
     ("libm", "component/sizing/bad.cpp", "double f(double x) { return std::sin(x); }\n"),
     ("libm", "component/relax/bad.cpp", "double f(double x) { return 2.0 * pow(x, 3); }\n"),
