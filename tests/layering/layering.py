@@ -23,11 +23,12 @@ BELOW = {
     "dual": ["triangulation", "geometry", "core"],
     "partition": ["dual", "triangulation", "geometry", "core"],
     "metrics": ["dual", "sizing", "triangulation", "geometry", "core"],
+    "remap": ["dual", "triangulation", "geometry", "core"],
     "io": ["dual", "sizing", "triangulation", "geometry", "core"],
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
-    "lifecycle": ["io", "metrics", "partition", "dual", "relax", "refine", "sizing", "triangulation",
+    "lifecycle": ["remap", "io", "metrics", "partition", "dual", "relax", "refine", "sizing", "triangulation",
                   "geometry", "time", "core"],
-    "app": ["lifecycle", "pictures", "io", "metrics", "dual", "relax", "refine", "sizing",
+    "app": ["lifecycle", "pictures", "remap", "io", "metrics", "dual", "relax", "refine", "sizing",
             "triangulation", "geometry", "time", "core"],
 }
 # What adapters may name: the phase functions and what these hand over.
@@ -36,7 +37,7 @@ INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "partition", "dual", "si
 # Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
 NO_LAYERS = ["cmake", "performance"]
 # Layers whose code is on the path from configuration to grid: no libm there.
-GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "dual"]
+GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "dual", "remap"]
 
 # Each third party's name, and the only files that may say it.
 HOMES = [

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "remap/clip.hpp"
+
+#include <cmath>
+
+#include "core/elementary.hpp"
+
+namespace delos::remap {
+namespace {
+
+// A corner this near to a side lies on it: positions are good to a few units of 1.1e-16.
+constexpr double kOnSide = 1e-15;
+// A side shorter than this has no direction of its own (four cocircular cells) and cuts nothing.
+constexpr double kShortest = 1e-13;
+
+double twice_area(const Corner& a, const Corner& b, const Corner& c) {
+  return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+// Solid angle. A fan of triangles, each with tan(E / 2) = det / denominator (Van Oosterom &
+// Strackee 1983, doi:10.1109/TBME.1983.325207); half angles add up as the arguments of complex
+// numbers, so that one arctangent serves all of them.
+double solid_angle(std::span<const Corner> corners) {
+  const Corner& a = corners[0];
+  const auto length = [](const Corner& p) { return std::sqrt(1.0 + (p.x * p.x + p.y * p.y)); };
+  const auto dot = [](const Corner& p, const Corner& q) { return 1.0 + (p.x * q.x + p.y * q.y); };
+  const double length_a = length(a);
+  double length_b = length(corners[1]);
+  double re = 1.0, im = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Corner &b = corners[k - 1], &c = corners[k];
+    const double length_c = length(c);
+    const double denominator = 0.25 * ((length_a * length_b * length_c + dot(a, b) * length_c) +
+                                       (dot(b, c) * length_a + dot(c, a) * length_b));
+    const double det = 0.25 * twice_area(a, b, c);
+    const double turned = re * denominator - im * det;
+    im = re * det + im * denominator;
+    re = turned;
+    length_b = length_c;
+  }
+  return 2.0 * elementary::atan2(im, re);
+}
+
+}  // namespace
+
+Frame::Frame(const Vec3& origin) : origin_(origin), height_(origin.norm()) {
+  up_ = origin / height_;
+  int smallest = 0;
+  up_.cwiseAbs().minCoeff(&smallest);
+  east_ = Vec3(Vec3::Unit(smallest)).cross(up_).normalized();
+  north_ = up_.cross(east_);
+}
+
+bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {
+  frame_ = Frame(tiling.centres()[static_cast<std::size_t>(polygon)]);
+  subject_.clear();
+  for (const Index id : tiling.corners(polygon)) {
+    const Vec3 p = frame_.local(tiling.corner(id));
+    if (!(p.z() > 0.0)) return false;
+    subject_.push_back({p.x() / p.z(), p.y() / p.z(), kNone});
+  }
+  return true;
+}
+
+std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon) {
+  clipping_.clear();
+  for (const Index id : tiling.corners(polygon)) {
+    clipping_.push_back(frame_.local(tiling.corner(id)));
+  }
+  const Vec3 centre = frame_.local(tiling.centres()[static_cast<std::size_t>(polygon)]);
+  current_ = subject_;
+  for (std::size_t k = 0; k < clipping_.size(); ++k) {
+    const Vec3& from = clipping_[k == 0 ? clipping_.size() - 1 : k - 1];
+    const Vec3 line = from.cross(clipping_[k]);
+    const double length = line.norm();
+    // A side that runs backwards, where the grid folds by a trifle, cuts nothing either.
+    if (length < kShortest || !(line.dot(centre) > 0.0)) continue;
+    if (!cut(line / length, static_cast<Index>(k))) return {};
+  }
+  return current_;
+}
+
+// Sutherland & Hodgman 1974 (doi:10.1145/360767.360802): keeps what lies left of the line.
+bool Clipper::cut(const Vec3& line, Index side) {
+  distance_.resize(current_.size());
+  bool any_inside = false, any_outside = false;
+  for (std::size_t k = 0; k < current_.size(); ++k) {
+    const double d = (line.x() * current_[k].x + line.y() * current_[k].y) + line.z();
+    distance_[k] = d;
+    any_inside |= d > kOnSide;
+    any_outside |= d < -kOnSide;
+  }
+  if (!any_inside || !any_outside) return any_inside;
+  next_.clear();
+  for (std::size_t k = 0; k < current_.size(); ++k) {
+    const std::size_t l = k + 1 == current_.size() ? 0 : k + 1;
+    const Corner &p = current_[k], &q = current_[l];
+    const double from = distance_[k], to = distance_[l];
+    const bool leaves = to < -kOnSide;
+    if (from >= -kOnSide) {
+      next_.push_back({p.x, p.y, leaves && from <= kOnSide ? side : p.side});
+    }
+    if ((from > kOnSide && leaves) || (from < -kOnSide && to > kOnSide)) {
+      const double t = from / (from - to);
+      next_.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), leaves ? side : p.side});
+    }
+  }
+  std::swap(current_, next_);
+  return current_.size() >= 3;
+}
+
+double Clipper::area(const Ellipsoid& surface, std::span<const Corner> corners) const {
+  if (surface.is_sphere()) return solid_angle(corners);
+  const auto on_surface = [&](const Corner& p) { return surface.project(frame_.point(p.x, p.y)); };
+  const Vec3 a = on_surface(corners[0]);
+  Vec3 b = on_surface(corners[1]);
+  double sum = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Vec3 c = on_surface(corners[k]);
+    sum += surface.triangle_area(a, b, c);
+    b = c;
+  }
+  return sum;
+}
+
+Vec3 Clipper::middle(const Ellipsoid& surface, std::span<const Corner> corners) const {
+  const Corner& a = corners[0];
+  double x = 0.0, y = 0.0, weight = 0.0;
+  for (std::size_t k = 2; k < corners.size(); ++k) {
+    const Corner &b = corners[k - 1], &c = corners[k];
+    const double w = twice_area(a, b, c);
+    x += w * ((b.x - a.x) + (c.x - a.x));
+    y += w * ((b.y - a.y) + (c.y - a.y));
+    weight += 3.0 * w;
+  }
+  const double scale = weight > 0.0 ? 1.0 / weight : 0.0;
+  return surface.project(frame_.point(a.x + x * scale, a.y + y * scale));
+}
+
+}  // namespace delos::remap

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Intersection of two polygons on the surface, worked out in the plane that touches the first.
+//
+// Central projection onto that plane makes lines of planes through the centre, on the sphere and
+// on an ellipsoid alike, so that the intersection of two polygons is that of flat ones. Coordinates
+// are differences from the first polygon's centre: rounding is relative to the polygon, not to the
+// body. Points of the second polygon stay homogeneous, so that it may reach round the body.
+#include <span>
+#include <vector>
+
+#include "geometry/ellipsoid.hpp"
+#include "remap/tiling.hpp"
+
+namespace delos::remap {
+
+/// Surface coordinates around a point.
+class Frame {
+ public:
+  explicit Frame(const Vec3& origin);
+  /// Homogeneous coordinates (x, y, height) of p; the plane is height = that of the origin.
+  Vec3 local(const Vec3& p) const {
+    const Vec3 d = p - origin_;
+    return {d.dot(east_), d.dot(north_), height_ + d.dot(up_)};
+  }
+  /// The point of the plane, in space; its direction is what counts.
+  Vec3 point(double x, double y) const { return origin_ + height_ * (x * east_ + y * north_); }
+
+ private:
+  Vec3 origin_, up_, east_, north_;
+  double height_;
+};
+
+struct Corner {
+  double x, y;
+  Index side;  ///< of the clipping polygon that the side from here on lies on; kNone: own side
+};
+
+/// Keeps its memory from one intersection to the next; one for each task.
+class Clipper {
+ public:
+  /// Chooses the polygon to be clipped. False when it is wider than a hemisphere.
+  bool begin(const Tiling& tiling, std::int64_t polygon);
+  /// Intersection with another polygon: corners counter-clockwise, fewer than three when they have
+  /// no area in common. Valid until the next call.
+  std::span<const Corner> clip(const Tiling& tiling, std::int64_t polygon);
+  /// Area in scaled units.
+  double area(const Ellipsoid& surface, std::span<const Corner> corners) const;
+  /// Surface point in the middle of the corners' polygon.
+  Vec3 middle(const Ellipsoid& surface, std::span<const Corner> corners) const;
+
+ private:
+  bool cut(const Vec3& line, Index side);
+
+  Frame frame_{Vec3(0, 0, 1)};
+  std::vector<Corner> subject_, current_, next_;
+  std::vector<Vec3> clipping_;
+  std::vector<double> distance_;
+};
+
+}  // namespace delos::remap

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "remap/tiling.hpp"
+
+namespace delos::remap {
+namespace {
+
+constexpr std::int64_t kTriangleGrain = 4096;  // about 0.1 ms
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+}  // namespace
+
+Tiling Tiling::cells(const Grid& grid) {
+  Tiling tiling;
+  tiling.grid_ = &grid;
+  tiling.corner_position_ = grid.vertex_position;
+  tiling.area_m2_ = grid.cell_area_m2;
+  return tiling;
+}
+
+Tiling Tiling::triangles(parallel::Executor& exec, const Grid& grid) {
+  Tiling tiling;
+  tiling.grid_ = &grid;
+  tiling.of_cells_ = false;
+  tiling.corner_position_ = grid.cell_position;
+  tiling.area_m2_ = grid.triangle_area_m2;
+  tiling.beside_triangle_.resize(at(grid.n_vertices()));
+  tiling.own_centre_.resize(at(grid.n_vertices()));
+  parallel::for_index(exec, grid.n_vertices(), kTriangleGrain, [&](std::int64_t i) {
+    const auto& cells = grid.cells_on_vertex[at(i)];
+    Vec3 sum = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k) {
+      // Cell k lies between edges k and k + 1, so edge k crosses the side from cell k - 1 to k.
+      const auto& ends = grid.vertices_on_edge[at(grid.edges_on_vertex[at(i)][k])];
+      tiling.beside_triangle_[at(i)][k] = ends[0] == static_cast<Index>(i) ? ends[1] : ends[0];
+      sum += grid.cell_position[at(cells[k])];
+    }
+    tiling.own_centre_[at(i)] = grid.surface.project(sum);
+  });
+  return tiling;
+}
+
+}  // namespace delos::remap

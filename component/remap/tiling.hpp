@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// What transfer sees of a grid: convex polygons that tile the surface.
+#include <span>
+
+#include "core/array.hpp"
+#include "core/parallel.hpp"
+#include "dual/grid.hpp"
+
+namespace delos::remap {
+
+/// The Voronoi cells of a grid or its triangles, as polygons whose sides lie in planes through the
+/// centre. Corners counter-clockwise from outside; side k joins corner k - 1 to corner k, and
+/// neighbour k is across it. A view: the grid must outlive it.
+class Tiling {
+ public:
+  static Tiling cells(const Grid& grid);
+  static Tiling triangles(parallel::Executor& exec, const Grid& grid);
+
+  std::int64_t size() const { return static_cast<std::int64_t>(area_m2_.size()); }
+  const Ellipsoid& surface() const { return grid_->surface; }
+  std::span<const Index> corners(std::int64_t i) const {
+    return of_cells_ ? grid_->vertices_on_cell.row(i)
+                     : std::span<const Index>(grid_->cells_on_vertex[static_cast<std::size_t>(i)]);
+  }
+  std::span<const Index> neighbours(std::int64_t i) const {
+    return of_cells_ ? grid_->cells_on_cell.row(i)
+                     : std::span<const Index>(beside_triangle_[static_cast<std::size_t>(i)]);
+  }
+  const Vec3& corner(Index id) const { return corner_position_[static_cast<std::size_t>(id)]; }
+  /// Surface points inside the polygons, [size()].
+  std::span<const Vec3> centres() const {
+    return of_cells_ ? std::span<const Vec3>(grid_->cell_position) : own_centre_;
+  }
+  /// As in the grid, [size()].
+  std::span<const double> area_m2() const { return area_m2_; }
+
+ private:
+  const Grid* grid_ = nullptr;
+  bool of_cells_ = true;
+  std::span<const Vec3> corner_position_;
+  std::span<const double> area_m2_;
+  Array<std::array<Index, 3>> beside_triangle_;  // empty for cells
+  Array<Vec3> own_centre_;                       // empty for cells
+};
+
+}  // namespace delos::remap

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "remap/weights.hpp"
+
+#include <cmath>
+
+#include "core/error.hpp"
+
+namespace delos::remap {
+namespace {
+
+constexpr std::int64_t kRowGrain = 4096;  // rows of a few weights each, 0.1 ms
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+double row_value(const Weights& weights, std::int64_t row, std::span<const double> source) {
+  const std::int64_t begin = weights.offsets[at(row)], end = weights.offsets[at(row) + 1];
+  std::int64_t largest = begin;
+  for (std::int64_t k = begin; k < end; ++k) {
+    if (std::abs(weights.value[at(k)]) > std::abs(weights.value[at(largest)])) largest = k;
+  }
+  const double reference = source[at(weights.column[at(largest)])];
+  double sum = 0.0;
+  for (std::int64_t k = begin; k < end; ++k) {
+    sum += weights.value[at(k)] * (source[at(weights.column[at(k)])] - reference);
+  }
+  return reference + sum;
+}
+
+}  // namespace
+
+Weights first_order_weights(parallel::Executor& exec, const Overlaps& overlaps) {
+  Weights weights;
+  weights.n_columns = overlaps.n_sources;
+  weights.offsets = overlaps.offsets;
+  weights.column = overlaps.source;
+  weights.value.resize(overlaps.source.size());
+  parallel::for_index(exec, overlaps.n_targets, kRowGrain, [&](std::int64_t row) {
+    const std::int64_t begin = overlaps.offsets[at(row)], end = overlaps.offsets[at(row) + 1];
+    double sum = 0.0;
+    for (std::int64_t k = begin; k < end; ++k) sum += overlaps.area_m2[at(k)];
+    for (std::int64_t k = begin; k < end; ++k) weights.value[at(k)] = overlaps.area_m2[at(k)] / sum;
+  });
+  return weights;
+}
+
+void apply(parallel::Executor& exec, const Weights& weights, std::span<const double> source,
+           std::span<double> target) {
+  DELOS_CHECK(static_cast<std::int64_t>(source.size()) == weights.n_columns &&
+                  static_cast<std::int64_t>(target.size()) == weights.n_rows(),
+              ErrorKind::input, "weights from ", weights.n_columns, " to ", weights.n_rows(),
+              " values were given fields of ", source.size(), " and ", target.size(),
+              " values: the fields belong to other grids.");
+  parallel::for_index(exec, weights.n_rows(), kRowGrain, [&](std::int64_t row) {
+    target[at(row)] = weights.offsets[at(row)] == weights.offsets[at(row) + 1]
+                          ? 0.0
+                          : row_value(weights, row, source);
+  });
+}
+
+Weights transpose(const Weights& weights) {
+  Weights result;
+  result.n_columns = weights.n_rows();
+  result.offsets.assign(at(weights.n_columns) + 1, 0);
+  for (const Index column : weights.column) ++result.offsets[at(column) + 1];
+  for (std::size_t i = 1; i < result.offsets.size(); ++i)
+    result.offsets[i] += result.offsets[i - 1];
+  Array<std::int64_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  result.column.resize(weights.column.size());
+  result.value.resize(weights.value.size());
+  for (std::int64_t row = 0; row < weights.n_rows(); ++row) {
+    for (std::int64_t k = weights.offsets[at(row)]; k < weights.offsets[at(row) + 1]; ++k) {
+      const std::size_t place = at(next[at(weights.column[at(k)])]++);
+      result.column[place] = static_cast<Index>(row);
+      result.value[place] = weights.value[at(k)];
+    }
+  }
+  return result;
+}
+
+}  // namespace delos::remap
