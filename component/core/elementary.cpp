@@ -21,17 +21,15 @@ struct HiLo {
   double hi, lo;
 };
 
-/// a * b = hi + lo exactly (Dekker 1971), |a|, |b| < 2^990.
-HiLo product(double a, double b) {
+/// small - k / 32 large, rounded once, for whole k from 0 to 32, k / 32 being small / large to
+/// within 1 / 64. `large` is split in two (Dekker 1971), so that both products are exact; so is the
+/// first difference, of two numbers of about the same size.
+double remainder(double small, double k, double large) {
   constexpr double kSplitter = 134217729.0;  // 2^27 + 1
-  const double ca = kSplitter * a;
-  const double cb = kSplitter * b;
-  const double ah = ca - (ca - a);
-  const double bh = cb - (cb - b);
-  const double al = a - ah;
-  const double bl = b - bh;
-  const double p = a * b;
-  return {p, ((ah * bh - p) + ah * bl + al * bh) + al * bl};
+  const double c = kSplitter * large;
+  const double high = c - (c - large);
+  const double low = large - high;
+  return (small - k / 32 * high) - k / 32 * low;
 }
 
 /// 2^k for -1022 <= k <= 1023.
@@ -85,11 +83,7 @@ constexpr std::array<HiLo, 33> kAtan = {{
     {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55},
 }};
 
-/// atan(r) - r for |r| <= 1/62; the first term left out is below 2^-61 r.
-double atan_tail(double r) {
-  const double z = r * r;
-  return r * z * (-1.0 / 3 + z * (1.0 / 5 + z * (-1.0 / 7 + z * (1.0 / 9))));
-}
+using detail::atan_tail;
 
 /// atan(small / large) for 0 <= small <= large, large > 0, as a sum of two parts.
 HiLo atan_ratio(double small, double large) {
@@ -102,9 +96,7 @@ HiLo atan_ratio(double small, double large) {
     small *= scale;
     large *= scale;
   }
-  const HiLo subtrahend = product(k / 32, large);
-  const double numerator = (small - subtrahend.hi) - subtrahend.lo;
-  const double r = numerator / (large + k / 32 * small);
+  const double r = remainder(small, k, large) / (large + k / 32 * small);
   const HiLo& base = kAtan[static_cast<std::size_t>(k)];
   return {base.hi, r + (base.lo + atan_tail(r))};
 }
@@ -169,7 +161,7 @@ Exponential exponential(double x) {
 
 }  // namespace
 
-double atan2(double y, double x) {
+double detail::any_atan2(double y, double x) {
   if (x != x || y != y) return x + y;
   double ax = std::abs(x);
   double ay = std::abs(y);
@@ -189,6 +181,75 @@ double atan2(double y, double x) {
     angle = x < 0 ? subtract(kPiParts, a) : a.hi + a.lo;
   }
   return y < 0 ? -angle : angle;
+}
+
+namespace {
+
+// Angles at a time: the arrays between the steps stay in the nearest cache.
+constexpr std::size_t kBatch = 64;
+
+/// What atan2 of a batch knows between its steps.
+struct AngleBatch {
+  std::array<double, kBatch> small, large, k, hi, lo;
+};
+
+/// atan2 of n <= kBatch finite arguments, about 2^-500 to 2^500 in size. Without
+/// a branch, so that compilers use vectors; every step is that of atan2 above or changes no bit.
+void ordinary_atan2(const double* y, const double* x, double* angle, std::size_t n) {
+  AngleBatch b;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double ax = std::abs(x[i]);
+    const double ay = std::abs(y[i]);
+    b.small[i] = ax < ay ? ax : ay;
+    b.large[i] = ax < ay ? ay : ax;
+    b.k[i] = nearest(32 * (b.small[i] / b.large[i]));
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const HiLo& base = kAtan[static_cast<std::size_t>(static_cast<int>(b.k[i]))];
+    b.hi[i] = base.hi;
+    b.lo[i] = base.lo;
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    const double k = b.k[i], small = b.small[i], large = b.large[i];
+    const double r = remainder(small, k, large) / (large + k / 32 * small);
+    const double tail = atan_tail(r);
+    // Small angles are all remainder: (r, tail) then, else (base.hi, r + (base.lo + tail)).
+    const double small_angle = (k == 0 ? 1.0 : 0.0) * r;
+    b.hi[i] += small_angle;
+    b.lo[i] = (r - small_angle) + (b.lo[i] + tail);
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    // The angle is one of pi/2, pi and 0, less or more that.
+    const bool is_steep = std::abs(x[i]) < std::abs(y[i]);
+    const double flat_hi = x[i] < 0 ? kPiParts.hi : 0;
+    const double flat_lo = x[i] < 0 ? kPiParts.lo : 0;
+    const double hi = is_steep ? kHalfPi.hi : flat_hi;
+    const double lo = is_steep ? kHalfPi.lo : flat_lo;
+    const double steep_sign = x[i] < 0 ? -1 : 1;
+    const double sign = is_steep ? steep_sign : -steep_sign;
+    const double upper = subtract({hi, lo}, {sign * b.hi[i], sign * b.lo[i]});
+    angle[i] = y[i] < 0 ? -upper : upper;
+  }
+}
+
+bool is_ordinary(double y, double x) {
+  const double sum = std::abs(x) + std::abs(y);
+  return sum >= 0x1p-500 && sum <= 0x1p500;
+}
+
+}  // namespace
+
+void atan2(std::span<const double> y, std::span<const double> x, std::span<double> angle) {
+  for (std::size_t begin = 0; begin < angle.size(); begin += kBatch) {
+    const std::size_t end = std::min(begin + kBatch, angle.size());
+    std::size_t i = begin;
+    while (i < end && is_ordinary(y[i], x[i])) ++i;
+    if (i == end) {
+      ordinary_atan2(y.data() + begin, x.data() + begin, angle.data() + begin, end - begin);
+    } else {
+      for (i = begin; i < end; ++i) angle[i] = atan2(y[i], x[i]);
+    }
+  }
 }
 
 double asin(double x) {

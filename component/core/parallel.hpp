@@ -4,13 +4,19 @@
 // knows oneTBB is parallel.cpp behind this header.
 //
 // Law: work is cut into blocks by `grain` alone, never by the thread count; a body writes only
-// the slots of its own indices; reductions combine block results in block order.
+// the slots of its own indices (lower_to is the exception); reductions combine block results in
+// block order.
+#include <atomic>
 #include <cstdint>
 #include <functional>
 #include <iterator>
 #include <memory>
+#include <numeric>
+#include <span>
 #include <utility>
 #include <vector>
+
+#include "core/types.hpp"
 
 namespace delos::parallel {
 
@@ -99,17 +105,45 @@ std::vector<T> collect(Executor& exec, std::int64_t n, std::int64_t grain, Body&
       });
 }
 
+/// counts[i] becomes counts[0] + ... + counts[i - 1] for i in [0, n]; n + 1 values, the last of
+/// which need not be set before and is the total afterwards.
+inline void scan_counts(Executor& exec, std::int64_t grain, std::span<std::int64_t> counts) {
+  const auto n = static_cast<std::int64_t>(counts.size()) - 1;
+  std::vector<std::int64_t> first(static_cast<std::size_t>((n + grain - 1) / grain) + 1, 0);
+  for_range(exec, n, grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t sum = 0;
+    for (std::int64_t i = begin; i < end; ++i) sum += counts[static_cast<std::size_t>(i)];
+    first[static_cast<std::size_t>(begin / grain) + 1] = sum;
+  });
+  std::partial_sum(first.begin(), first.end(), first.begin());
+  for_range(exec, n, grain, [&](std::int64_t begin, std::int64_t end) {
+    std::int64_t sum = first[static_cast<std::size_t>(begin / grain)];
+    for (std::int64_t i = begin; i < end; ++i) {
+      sum += std::exchange(counts[static_cast<std::size_t>(i)], sum);
+    }
+  });
+  counts.back() = first.back();
+}
+
 /// offsets[i] = count(0) + ... + count(i - 1), n + 1 values; offsets[n] is the total.
 template <class Count>
 std::vector<std::int64_t> exclusive_scan(Executor& exec, std::int64_t n, std::int64_t grain,
                                          Count&& count) {
-  std::vector<std::int64_t> offsets(static_cast<std::size_t>(n) + 1, 0);
+  std::vector<std::int64_t> offsets(static_cast<std::size_t>(n) + 1);
   for_index(exec, n, grain,
-            [&](std::int64_t i) { offsets[static_cast<std::size_t>(i) + 1] = count(i); });
-  for (std::int64_t i = 0; i < n; ++i) {
-    offsets[static_cast<std::size_t>(i) + 1] += offsets[static_cast<std::size_t>(i)];
-  }
+            [&](std::int64_t i) { offsets[static_cast<std::size_t>(i)] = count(i); });
+  scan_counts(exec, grain, offsets);
   return offsets;
+}
+
+/// slot = min(slot, value), whichever thread comes first: the one way in which loops may share
+/// slots, because the smallest does not depend on their order. kNone counts as the largest.
+inline void lower_to(Index& slot, Index value) {
+  const std::atomic_ref<Index> shared(slot);
+  Index seen = shared.load(std::memory_order_relaxed);
+  while (static_cast<std::uint32_t>(value) < static_cast<std::uint32_t>(seen) &&
+         !shared.compare_exchange_weak(seen, value, std::memory_order_relaxed)) {
+  }
 }
 
 }  // namespace delos::parallel

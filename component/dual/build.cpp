@@ -4,9 +4,10 @@
 #include <bit>
 
 #include "core/hash.hpp"
+#include "dual/areas.hpp"
 #include "dual/connectivity.hpp"
 #include "dual/edge_weights.hpp"
-#include "dual/measures.hpp"
+#include "dual/edges.hpp"
 #include "dual/voronoi.hpp"
 
 namespace delos {
@@ -21,7 +22,7 @@ void check_closed(const Mesh& mesh) {
 }
 
 template <class T>
-void add(Digest& digest, const std::vector<T>& values) {
+void add(Digest& digest, std::span<const T> values) {
   static_assert(std::endian::native == std::endian::little, "digests are over little-endian bytes");
   const std::uint64_t n = values.size();
   digest.add(&n, sizeof n);
@@ -29,8 +30,13 @@ void add(Digest& digest, const std::vector<T>& values) {
 }
 
 template <class T>
+void add(Digest& digest, const Array<T>& values) {
+  add(digest, std::span<const T>(values));
+}
+
+template <class T>
 void add(Digest& digest, const Ragged<T>& table) {
-  add(digest, table.offsets);
+  add(digest, table.offsets.positions());
   add(digest, table.values);
 }
 
@@ -52,16 +58,15 @@ Grid build_grid(Context& context, const Ellipsoid& surface, LatitudeKind latitud
     context.monitor.advance(mesh.n_vertices() / 5);
     context.monitor.check_cancelled();
   };
-  dual::place_cells_and_vertices(context.exec, mesh, grid);
+  dual::place_cells(context.exec, mesh, grid);
+  dual::place_vertices(context.exec, mesh, grid);
+  step_done();
   dual::connect(context.exec, mesh, grid);
   step_done();
-  dual::place_edges(context.exec, grid);
-  step_done();
-  dual::locate(context.exec, grid);
+  dual::measure_edges(context.exec, grid);
   step_done();
   dual::measure_areas(context.exec, grid);
   step_done();
-  dual::measure_edges(context.exec, grid);
   dual::weigh_edges(context.exec, grid);
   context.monitor.advance(mesh.n_vertices() - 4 * (mesh.n_vertices() / 5));
   return grid;

@@ -7,8 +7,8 @@
 
 namespace delos::dual {
 
-/// Fills every table of Grid that holds indices, from the triangles alone. Count, scan, fill; O(n).
-/// Needs the positions of cells and vertices (their number).
+/// Fills every table of Grid that holds indices but edges_on_edge, from the triangles alone. Count,
+/// scan, fill; O(n). Needs the positions of cells and vertices (their number).
 void connect(parallel::Executor& exec, const Mesh& mesh, Grid& grid);
 
 }  // namespace delos::dual

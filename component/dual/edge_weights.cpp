@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dual/edge_weights.hpp"
 
+#include <vector>
+
+#include "dual/kites.hpp"
+
 namespace delos::dual {
 namespace {
 
@@ -8,72 +12,109 @@ constexpr std::int64_t kWeightGrain = 1024;  // cells; about 0.2 ms
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-// What one cell needs of its surroundings, in the order of its lists. Reused from cell to cell.
+// What one cell needs of its surroundings, in the order of its lists and once more behind that, so
+// that a walk around it may begin anywhere. Degree 0 stands for any.
+template <std::size_t kDegree>
 struct CellRing {
-  std::vector<double> share;  // kite / cell area at vertex j
-  std::vector<double>
-      flux_length;  // vertex distance of edge j, positive if the edge points outward
+  explicit CellRing(std::size_t) {}
+  std::array<Index, 2 * kDegree> edge;
+  std::array<double, 2 * kDegree> share;        // kite / cell area at vertex j
+  std::array<double, 2 * kDegree> flux_length;  // vertex distance of edge j, outward positive
+};
+template <>
+struct CellRing<0> {
+  explicit CellRing(std::size_t n) : edge(2 * n), share(2 * n), flux_length(2 * n) {}
+  std::vector<Index> edge;
+  std::vector<double> share, flux_length;
 };
 
-void gather(const Grid& grid, Index cell, CellRing& ring) {
-  const auto vertices = grid.vertices_on_cell.row(cell);
-  const auto edges = grid.edges_on_cell.row(cell);
+// An edge points from the lower of its cells, [0], to the higher. A table, not a branch, which
+// could not be foretold.
+double sign_of_side(bool is_first) {
+  constexpr std::array<double, 2> kSign = {-1.0, 1.0};
+  return kSign[static_cast<std::size_t>(is_first)];
+}
+
+template <std::size_t kDegree>
+void gather(const Grid& grid, Index cell, std::size_t n, CellRing<kDegree>& ring) {
+  const Index* edges = grid.edges_on_cell.row(cell).data();
+  const Index* vertices = grid.vertices_on_cell.row(cell).data();
+  const Index* neighbours = grid.cells_on_cell.row(cell).data();
   const double area = grid.cell_area_m2[at(cell)];
-  ring.share.resize(edges.size());
-  ring.flux_length.resize(edges.size());
-  for (std::size_t j = 0; j < edges.size(); ++j) {
-    const auto& cells = grid.cells_on_vertex[at(vertices[j])];
-    const std::size_t corner = cells[0] == cell ? 0 : cells[1] == cell ? 1 : 2;
+  for (std::size_t j = 0; j < n; ++j) {
     // A cell of no area (only in a folded mesh) shares itself out evenly rather than by 0 / 0.
-    ring.share[j] = area != 0.0 ? grid.kite_area_m2[at(vertices[j])][corner] / area
-                                : 1.0 / static_cast<double>(edges.size());
-    const bool outward = grid.cells_on_edge[at(edges[j])][0] == cell;
-    const double length = grid.vertex_distance_m[at(edges[j])];
-    ring.flux_length[j] = outward ? length : -length;
+    const double share =
+        area != 0.0 ? shared_kite_m2(grid, cell, vertices[j]) / area : 1.0 / static_cast<double>(n);
+    const double flux_length =
+        sign_of_side(neighbours[j] > cell) * grid.vertex_distance_m[at(edges[j])];
+    ring.edge[j] = ring.edge[j + n] = edges[j];
+    ring.share[j] = ring.share[j + n] = share;
+    ring.flux_length[j] = ring.flux_length[j + n] = flux_length;
   }
 }
 
-// The half of an edge's row that goes around one of its cells, from the edge counter-clockwise.
-void weigh_half(const CellRing& ring, std::size_t edge_in_ring, double scale, double* out) {
-  const std::size_t n = ring.share.size();
-  double swept = 0.0;
-  std::size_t j = edge_in_ring;
-  for (std::size_t step = 1; step < n; ++step) {
-    swept += ring.share[j];
-    j = j + 1 == n ? 0 : j + 1;
-    *out++ = scale * (0.5 - swept) * ring.flux_length[j];
-  }
-}
-
-// A cell writes its half of the rows of all its edges: every weight has one writer.
-void weigh_around(const CellRing& ring, Index cell, Grid& grid) {
-  const auto edges = grid.edges_on_cell.row(cell);
-  for (std::size_t j = 0; j < edges.size(); ++j) {
-    const auto edge = at(edges[j]);
-    const bool first_half = grid.cells_on_edge[edge][0] == cell;
-    const double distance = grid.cell_distance_m[edge];
+// A cell writes its half of the rows of all its edges, from the edge counter-clockwise: every entry
+// has one writer.
+template <std::size_t kDegree>
+void weigh_around(Grid& grid, Index cell, std::size_t any_degree) {
+  const std::size_t n = kDegree > 0 ? kDegree : any_degree;
+  CellRing<kDegree> ring(n);
+  gather(grid, cell, n, ring);
+  const Index* neighbours = grid.cells_on_cell.row(cell).data();
+  for (std::size_t j = 0; j < n; ++j) {
+    const Index edge = ring.edge[j];
+    const bool first_half = neighbours[j] > cell;
+    const double distance = grid.cell_distance_m[at(edge)];
     const double inverse = distance > 0.0 ? 1.0 / distance : 0.0;
-    const auto& offsets = grid.weights_on_edge.offsets;
-    const auto begin = first_half ? offsets[edge]
-                                  : offsets[edge + 1] - static_cast<std::int64_t>(edges.size()) + 1;
-    weigh_half(ring, j, first_half ? inverse : -inverse,
-               grid.weights_on_edge.values.data() + begin);
+    const double scale = sign_of_side(first_half) * inverse;
+    const RowOffsets& rows = grid.edges_on_edge.offsets;
+    const auto begin =
+        at(first_half ? rows.begin_of(edge) : rows.end_of(edge)) - (first_half ? 0 : n - 1);
+    Index* others = grid.edges_on_edge.values.data() + begin;
+    double* weights = grid.weights_on_edge.values.data() + begin;
+    double swept = 0.0;
+    for (std::size_t step = 0; step + 1 < n; ++step) {
+      swept += ring.share[j + step];
+      others[step] = ring.edge[j + step + 1];
+      weights[step] = scale * (0.5 - swept) * ring.flux_length[j + step + 1];
+    }
   }
+}
+
+// The usual numbers of edges are known to the compiler, which then unrolls the loops.
+void weigh_around(Grid& grid, Index cell) {
+  const auto n = at(grid.edges_on_cell.offsets.length_of(cell));
+  switch (n) {
+    case 5:
+      return weigh_around<5>(grid, cell, n);
+    case 6:
+      return weigh_around<6>(grid, cell, n);
+    case 7:
+      return weigh_around<7>(grid, cell, n);
+    default:
+      return weigh_around<0>(grid, cell, n);
+  }
+}
+
+RowOffsets rows_of_edges(parallel::Executor& exec, const Grid& grid) {
+  Array<std::int64_t> counts(grid.cells_on_edge.size() + 1);
+  parallel::for_index(exec, grid.n_edges(), kWeightGrain, [&](std::int64_t edge) {
+    const auto [c, d] = grid.cells_on_edge[at(edge)];
+    const RowOffsets& of_cell = grid.edges_on_cell.offsets;
+    counts[at(edge)] = of_cell.length_of(c) + of_cell.length_of(d) - 2;
+  });
+  parallel::scan_counts(exec, kWeightGrain, counts);
+  return RowOffsets(std::move(counts));
 }
 
 }  // namespace
 
 void weigh_edges(parallel::Executor& exec, Grid& grid) {
-  grid.weights_on_edge.offsets = grid.edges_on_edge.offsets;
+  grid.edges_on_edge.offsets = grid.weights_on_edge.offsets = rows_of_edges(exec, grid);
+  grid.edges_on_edge.values.resize(at(grid.edges_on_edge.offsets.n_values()));
   grid.weights_on_edge.values.resize(grid.edges_on_edge.values.size());
-  parallel::for_range(exec, grid.n_cells(), kWeightGrain,
-                      [&](std::int64_t begin, std::int64_t end) {
-                        CellRing ring;
-                        for (std::int64_t cell = begin; cell < end; ++cell) {
-                          gather(grid, static_cast<Index>(cell), ring);
-                          weigh_around(ring, static_cast<Index>(cell), grid);
-                        }
-                      });
+  parallel::for_index(exec, grid.n_cells(), kWeightGrain,
+                      [&](std::int64_t cell) { weigh_around(grid, static_cast<Index>(cell)); });
 }
 
 }  // namespace delos::dual

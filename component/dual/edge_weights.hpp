@@ -6,8 +6,8 @@
 
 namespace delos::dual {
 
-/// Fills weights_on_edge: the velocity along vertices_on_edge[0] -> [1] is the sum of
-/// weight x normal velocity over edges_on_edge.
+/// Fills edges_on_edge and weights_on_edge: the velocity along vertices_on_edge[0] -> [1] is the
+/// sum of weight x normal velocity over edges_on_edge.
 ///   w(e, e') = s n(e') (1/2 - R) dv(e') / dc(e)
 /// where R sums kite / cell area from e counter-clockwise to e', n(e') = +1 if the cell is
 /// cells_on_edge[e'][0], and s = +1 on the side of cells_on_edge[e][0], else -1.

@@ -4,25 +4,58 @@
 // vertices (cell i belongs to vertex i), grid vertices are the centres of the triangles' surface
 // Delaunay balls (vertex t belongs to triangle t). Base 0, lists counter-clockwise seen from
 // outside. Metres and radians.
+#include <algorithm>
 #include <memory>
 #include <span>
-#include <string>
-#include <vector>
+#include <utility>
 
+#include "core/array.hpp"
 #include "core/types.hpp"
 #include "geometry/ellipsoid.hpp"
 
 namespace delos {
 
-/// Ragged table: row i is values[offsets[i]] .. values[offsets[i + 1] - 1].
+/// Where the rows of a ragged table begin: n_rows + 1 positions, the last one behind the last row.
+/// Never changed; copies share them, so that tables with rows of the same lengths store them once.
+class RowOffsets {
+ public:
+  RowOffsets() = default;
+  explicit RowOffsets(Array<std::int64_t> positions)
+      : owner_(std::make_shared<const Array<std::int64_t>>(std::move(positions))),
+        positions_(*owner_) {}
+
+  /// Empty for a table that was never filled.
+  std::span<const std::int64_t> positions() const { return positions_; }
+  std::int64_t n_rows() const {
+    return positions_.empty() ? 0 : static_cast<std::int64_t>(positions_.size()) - 1;
+  }
+  std::int64_t n_values() const { return positions_.empty() ? 0 : positions_.back(); }
+  std::int64_t begin_of(std::int64_t row) const {
+    return positions_[static_cast<std::size_t>(row)];
+  }
+  std::int64_t end_of(std::int64_t row) const {
+    return positions_[static_cast<std::size_t>(row) + 1];
+  }
+  std::int64_t length_of(std::int64_t row) const { return end_of(row) - begin_of(row); }
+  friend bool operator==(const RowOffsets& a, const RowOffsets& b) {
+    return a.owner_ == b.owner_ || std::ranges::equal(a.positions_, b.positions_);
+  }
+
+ private:
+  std::shared_ptr<const Array<std::int64_t>> owner_;
+  std::span<const std::int64_t> positions_;
+};
+
+/// Ragged table: row i is values[offsets.begin_of(i)] .. values[offsets.end_of(i) - 1].
 template <class T>
 struct Ragged {
-  std::vector<std::int64_t> offsets;
-  std::vector<T> values;
+  RowOffsets offsets;
+  Array<T> values;
   std::span<const T> row(std::int64_t i) const {
-    const auto begin = static_cast<std::size_t>(offsets[static_cast<std::size_t>(i)]);
-    const auto end = static_cast<std::size_t>(offsets[static_cast<std::size_t>(i) + 1]);
-    return {values.data() + begin, end - begin};
+    return {values.data() + offsets.begin_of(i), static_cast<std::size_t>(offsets.length_of(i))};
+  }
+  std::span<T> row(std::int64_t i) {
+    return {values.data() + offsets.begin_of(i), static_cast<std::size_t>(offsets.length_of(i))};
   }
 };
 
@@ -31,34 +64,34 @@ struct Grid {
   LatitudeKind latitude = LatitudeKind::geodetic;
 
   // --- positions: surface points relative to the centre, scaled; lon in [0, 2 pi)
-  std::vector<Vec3> cell_position;    // [n_cells]
-  std::vector<Vec3> edge_position;    // [n_edges] where the dual edge crosses the primal edge
-  std::vector<Vec3> vertex_position;  // [n_vertices]
-  std::vector<LonLat> cell_lon_lat, edge_lon_lat, vertex_lon_lat;
+  Array<Vec3> cell_position;    // [n_cells]
+  Array<Vec3> edge_position;    // [n_edges] where the dual edge crosses the primal edge
+  Array<Vec3> vertex_position;  // [n_vertices]
+  Array<LonLat> cell_lon_lat, edge_lon_lat, vertex_lon_lat;
 
   // --- connectivity; entry j of a cell's three lists: edge j joins vertex j-1 to vertex j, and
   //     cells_on_cell[j] is across edge j
   Ragged<Index> edges_on_cell, vertices_on_cell, cells_on_cell;
   //     an edge's normal points from its cell [0] to its cell [1], [0] < [1]; its vertex [1] is 90
   //     degrees left of that; cell j of a vertex is between its edges j and j+1
-  std::vector<std::array<Index, 2>> cells_on_edge;
-  std::vector<std::array<Index, 2>> vertices_on_edge;
-  std::vector<std::array<Index, 3>> cells_on_vertex;
-  std::vector<std::array<Index, 3>> edges_on_vertex;
+  Array<std::array<Index, 2>> cells_on_edge;
+  Array<std::array<Index, 2>> vertices_on_edge;
+  Array<std::array<Index, 3>> cells_on_vertex;
+  Array<std::array<Index, 3>> edges_on_vertex;
   Ragged<Index> edges_on_edge;  // first those of cells_on_edge[0], then those of [1]
 
   // --- measures
-  std::vector<double> cell_area_m2;                 // [n_cells]
-  std::vector<double> triangle_area_m2;             // [n_vertices] sum of its kites
-  std::vector<std::array<double, 3>> kite_area_m2;  // [n_vertices] as cells_on_vertex
-  std::vector<double> cell_distance_m;              // [n_edges] between the two cells (dc)
-  std::vector<double> vertex_distance_m;            // [n_edges] between the two vertices (dv)
-  std::vector<double> edge_angle_rad;               // [n_edges] of the normal from local east
-  Ragged<double> weights_on_edge;                   // tangential weights, as edges_on_edge
-  std::vector<double> cell_spacing_m;               // [n_cells] the spacing that was asked for
+  Array<double> cell_area_m2;                 // [n_cells]
+  Array<double> triangle_area_m2;             // [n_vertices] sum of its kites
+  Array<std::array<double, 3>> kite_area_m2;  // [n_vertices] as cells_on_vertex
+  Array<double> cell_distance_m;              // [n_edges] between the two cells (dc)
+  Array<double> vertex_distance_m;            // [n_edges] between the two vertices (dv)
+  Array<double> edge_angle_rad;               // [n_edges] of the normal from local east
+  Ragged<double> weights_on_edge;             // tangential weights, as edges_on_edge
+  Array<double> cell_spacing_m;               // [n_cells] the spacing that was asked for
   // The same at the projected middle of the two cells, [n_edges]; empty where nobody filled it in
   // (build_grid has no field). Not part of the digest.
-  std::vector<double> edge_spacing_m;
+  Array<double> edge_spacing_m;
 
   std::int64_t n_cells() const { return static_cast<std::int64_t>(cell_position.size()); }
   std::int64_t n_edges() const { return static_cast<std::int64_t>(cells_on_edge.size()); }

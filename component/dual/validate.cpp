@@ -71,9 +71,10 @@ class Rules {
 
 template <class T>
 bool is_table(const Ragged<T>& table, std::int64_t n_rows) {
-  return static_cast<std::int64_t>(table.offsets.size()) == n_rows + 1 && table.offsets[0] == 0 &&
-         std::is_sorted(table.offsets.begin(), table.offsets.end()) &&
-         table.offsets.back() == static_cast<std::int64_t>(table.values.size());
+  const auto positions = table.offsets.positions();
+  return table.offsets.n_rows() == n_rows && !positions.empty() && positions[0] == 0 &&
+         std::is_sorted(positions.begin(), positions.end()) &&
+         table.offsets.n_values() == static_cast<std::int64_t>(table.values.size());
 }
 
 bool has_sizes(const Grid& g) {
@@ -182,8 +183,8 @@ void check_order(const Grid& g, Rules& rules) {
 
 // ------------------------------------------------------------------ positions
 
-void check_positions(const Grid& g, const char* rule, const std::vector<Vec3>& positions,
-                     const std::vector<LonLat>& lon_lat, Rules& rules) {
+void check_positions(const Grid& g, const char* rule, std::span<const Vec3> positions,
+                     std::span<const LonLat> lon_lat, Rules& rules) {
   // Coordinates are stored to rounding, however coarse the lengths of a file are.
   constexpr double kCoordinate = 1e-11;
   rules.check(rule, static_cast<std::int64_t>(positions.size()), kCoordinate, [&](std::int64_t i) {
@@ -342,7 +343,7 @@ void check_areas(Context& context, const Grid& g, double tolerance, Rules& rules
   rules.check("the area of a cell is that of its polygon", g.n_cells(), tolerance,
               [&](std::int64_t i) { return polygon_error(g, i); });
   const double whole = g.surface.area() * g.surface.scale_m() * g.surface.scale_m();
-  const auto total = [&](const std::vector<double>& areas) {
+  const auto total = [&](std::span<const double> areas) {
     return parallel::sum(context.exec, static_cast<std::int64_t>(areas.size()), kGrain,
                          [&](std::int64_t i) { return areas[at(i)]; });
   };

@@ -6,7 +6,9 @@
 // All functions work in scaled coordinates: origin at the centre, largest radius 1. to_metres()
 // and scale_m() are the way out.
 #include <Eigen/Geometry>
+#include <array>
 #include <cmath>
+#include <span>
 
 #include "core/elementary.hpp"
 #include "core/types.hpp"
@@ -55,6 +57,8 @@ class Ellipsoid {
   const Vec3& inverse_square() const { return inverse_square_; }
 
   LonLat lon_lat(const Vec3& p, LatitudeKind kind) const;
+  /// The same bits for many points at once, faster. The spans have the same length.
+  void lon_lat(std::span<const Vec3> points, LatitudeKind kind, std::span<LonLat> out) const;
   Vec3 point(const LonLat& lon_lat, LatitudeKind kind) const;
   /// The same from sines and cosines, for loops over the nodes of a table.
   Vec3 point(const elementary::SinCos& lon, const elementary::SinCos& lat, LatitudeKind kind) const;
@@ -62,7 +66,9 @@ class Ellipsoid {
   /// Centre of the surface Delaunay ball of three surface points (Engwirda 2015, section 2.4):
   /// where the line of points equidistant from them meets the surface on their side. a, b, c
   /// counter-clockwise seen from outside.
-  Vec3 ball_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;
+  Vec3 ball_centre(const Vec3& a, const Vec3& b, const Vec3& c) const {
+    return is_sphere_ ? (b - a).cross(c - a).normalized() : ellipsoidal_ball_centre(a, b, c);
+  }
 
   /// Length of the curve cut from the surface by the plane through a, b and the centre (on the
   /// sphere: the great-circle arc).
@@ -70,10 +76,18 @@ class Ellipsoid {
   /// Area of the surface triangle bounded by three such curves; negative when clockwise seen from
   /// outside. Additive to rounding: the parts of a split triangle sum to the whole.
   double triangle_area(const Vec3& a, const Vec3& b, const Vec3& c) const;
+  /// triangle_area(centre, ring[k], ring[k + 1]) around a point, to rounding; faster.
+  std::array<double, 6> fan_areas(const Vec3& centre, const std::array<Vec3, 6>& ring) const;
   /// Area of the whole surface.
   double area() const;
 
  private:
+  /// A vector whose angles are the longitude and latitude of p.
+  Vec3 direction(const Vec3& p, LatitudeKind kind) const;
+  /// Triangles with no longer sides take the rule of degree 5.
+  bool is_small(double side_square) const;
+  Vec3 ellipsoidal_ball_centre(const Vec3& a, const Vec3& b, const Vec3& c) const;
+
   Vec3 radii_;
   Vec3 inverse_square_;
   Vec3 centre_m_;

@@ -31,8 +31,7 @@ constexpr Type type_of() {
 std::size_t max_edges_on_cell(const Grid& grid) {
   std::int64_t most = 0;
   for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
-    most = std::max(
-        most, grid.edges_on_cell.offsets[at(cell) + 1] - grid.edges_on_cell.offsets[at(cell)]);
+    most = std::max(most, grid.edges_on_cell.offsets.length_of(cell));
   }
   return at(most);
 }
@@ -97,15 +96,15 @@ class MpasFile {
   }
   template <std::size_t kWidth>
   void add_ids(const std::string& name, DimensionId rows, DimensionId columns,
-               const std::vector<std::array<Index, kWidth>>& table) {
+               const Array<std::array<Index, kWidth>>& table) {
     add_table<std::int32_t>(name, rows, columns,
                             [&table](std::int64_t i, std::span<std::int32_t> out) {
                               const auto& row = table[at(i)];
                               std::transform(row.begin(), row.end(), out.begin(), id_from_one);
                             });
   }
-  void add_place(const std::string& entity, DimensionId rows, const std::vector<Vec3>& position,
-                 const std::vector<LonLat>& lon_lat);
+  void add_place(const std::string& entity, DimensionId rows, const Array<Vec3>& position,
+                 const Array<LonLat>& lon_lat);
   static std::int32_t id_from_one(Index id) { return id + 1; }
 
   std::int64_t n_of(DimensionId rows) const {
@@ -161,8 +160,8 @@ void MpasFile::add_attributes(const Provenance& provenance) {
   write_provenance(file_, provenance, {"nVertices", "nCells"});
 }
 
-void MpasFile::add_place(const std::string& entity, DimensionId rows,
-                         const std::vector<Vec3>& position, const std::vector<LonLat>& lon_lat) {
+void MpasFile::add_place(const std::string& entity, DimensionId rows, const Array<Vec3>& position,
+                         const Array<LonLat>& lon_lat) {
   add<double>("lat" + entity, rows, [&](std::int64_t i) { return lon_lat[at(i)].lat_rad; });
   add<double>("lon" + entity, rows, [&](std::int64_t i) { return lon_lat[at(i)].lon_rad; });
   for (int axis = 0; axis < 3; ++axis) {
@@ -289,7 +288,7 @@ void MpasFile::add_diagnostics() {
               [&](std::int64_t i) { return angles_of_triangle(grid, i).ratio(); });
   add<std::int32_t>("obtuseTriangle", vertices_,
                     [&](std::int64_t i) { return angles_of_triangle(grid, i).max > 0.5 * kPi; });
-  const std::vector<double>& spacing = grid.cell_spacing_m;
+  const Array<double>& spacing = grid.cell_spacing_m;
   const double finest = spacing.empty() ? 0.0 : *std::min_element(spacing.begin(), spacing.end());
   add<double>("meshDensity", cells_, [&spacing, finest](std::int64_t i) {
     if (spacing.empty()) return 1.0;

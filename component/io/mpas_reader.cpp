@@ -45,18 +45,18 @@ class MpasTables {
                               std::int64_t width = 1) const;
   std::vector<Index> ids(const std::string& name, std::int64_t rows, std::int64_t width,
                          std::int64_t n_targets) const;
-  std::vector<std::int64_t> offsets(const std::string& name, std::int64_t rows,
-                                    std::int64_t width) const;
+  RowOffsets offsets(const std::string& name, std::int64_t rows, std::int64_t width) const;
+  Array<double> measure(const std::string& name, std::int64_t rows) const;
   template <class T>
-  static Ragged<T> pack(const std::vector<std::int64_t>& offsets, const std::vector<T>& padded);
+  static Ragged<T> pack(const RowOffsets& offsets, const std::vector<T>& padded);
   template <std::size_t kWidth, class T>
-  static std::vector<std::array<T, kWidth>> rows_of(const std::vector<T>& values);
+  static Array<std::array<T, kWidth>> rows_of(const std::vector<T>& values);
   void read_places(Grid& grid) const;
   void read_tables(Grid& grid) const;
   void read_measures(Grid& grid) const;
-  std::vector<Vec3> positions(const std::string& entity, std::int64_t rows) const;
-  std::vector<LonLat> lon_lats(const std::string& entity, std::int64_t rows) const;
-  std::vector<double> spacing(const Grid& grid) const;
+  Array<Vec3> positions(const std::string& entity, std::int64_t rows) const;
+  Array<LonLat> lon_lats(const std::string& entity, std::int64_t rows) const;
+  Array<double> spacing(const Grid& grid) const;
 
   netcdf::Reader file_;
   std::int64_t n_cells_ = 0, n_edges_ = 0, n_vertices_ = 0;
@@ -97,43 +97,47 @@ std::vector<Index> MpasTables::ids(const std::string& name, std::int64_t rows, s
   return values;
 }
 
-std::vector<std::int64_t> MpasTables::offsets(const std::string& name, std::int64_t rows,
-                                              std::int64_t width) const {
+Array<double> MpasTables::measure(const std::string& name, std::int64_t rows) const {
+  const std::vector<double> values = numbers(name, rows);
+  return {values.begin(), values.end()};
+}
+
+RowOffsets MpasTables::offsets(const std::string& name, std::int64_t rows,
+                               std::int64_t width) const {
   check_shape(name, rows, 1);
   const std::vector<std::int32_t> counts = file_.read_int32(name);
-  std::vector<std::int64_t> result(at(rows) + 1, 0);
+  Array<std::int64_t> result(at(rows) + 1, 0);
   for (std::size_t i = 0; i < counts.size(); ++i) {
     DELOS_CHECK(counts[i] >= 0 && counts[i] <= width, ErrorKind::input, file_.path(),
                 ": variable '", name, "' is ", counts[i], " at row ", i + 1,
                 " (from 1), outside 0..", width, ". The file is damaged.");
     result[i + 1] = result[i] + counts[i];
   }
-  return result;
+  return RowOffsets(std::move(result));
 }
 
 template <class T>
-Ragged<T> MpasTables::pack(const std::vector<std::int64_t>& offsets, const std::vector<T>& padded) {
-  const std::size_t rows = offsets.size() - 1;
-  const std::size_t width = padded.size() / rows;
-  Ragged<T> result{offsets, std::vector<T>(at(offsets.back()))};
-  for (std::size_t i = 0; i < rows; ++i) {
-    std::copy_n(padded.begin() + static_cast<std::ptrdiff_t>(i * width),
-                offsets[i + 1] - offsets[i], result.values.begin() + offsets[i]);
+Ragged<T> MpasTables::pack(const RowOffsets& offsets, const std::vector<T>& padded) {
+  const std::int64_t rows = offsets.n_rows();
+  const auto width = static_cast<std::int64_t>(padded.size()) / rows;
+  Ragged<T> result{offsets, Array<T>(at(offsets.n_values()))};
+  for (std::int64_t i = 0; i < rows; ++i) {
+    std::copy_n(padded.begin() + i * width, offsets.length_of(i), result.row(i).begin());
   }
   return result;
 }
 
 template <std::size_t kWidth, class T>
-std::vector<std::array<T, kWidth>> MpasTables::rows_of(const std::vector<T>& values) {
-  std::vector<std::array<T, kWidth>> rows(values.size() / kWidth);
+Array<std::array<T, kWidth>> MpasTables::rows_of(const std::vector<T>& values) {
+  Array<std::array<T, kWidth>> rows(values.size() / kWidth);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(i * kWidth), kWidth, rows[i].begin());
   }
   return rows;
 }
 
-std::vector<Vec3> MpasTables::positions(const std::string& entity, std::int64_t rows) const {
-  std::vector<Vec3> result(at(rows));
+Array<Vec3> MpasTables::positions(const std::string& entity, std::int64_t rows) const {
+  Array<Vec3> result(at(rows));
   for (int axis = 0; axis < 3; ++axis) {
     const std::vector<double> values = numbers(std::string(1, "xyz"[axis]) + entity, rows);
     for (std::size_t i = 0; i < values.size(); ++i) result[i][axis] = values[i] / radius_;
@@ -141,10 +145,10 @@ std::vector<Vec3> MpasTables::positions(const std::string& entity, std::int64_t 
   return result;
 }
 
-std::vector<LonLat> MpasTables::lon_lats(const std::string& entity, std::int64_t rows) const {
+Array<LonLat> MpasTables::lon_lats(const std::string& entity, std::int64_t rows) const {
   const std::vector<double> lon = numbers("lon" + entity, rows);
   const std::vector<double> lat = numbers("lat" + entity, rows);
-  std::vector<LonLat> result(at(rows));
+  Array<LonLat> result(at(rows));
   for (std::size_t i = 0; i < result.size(); ++i) result[i] = {lon[i], lat[i]};
   return result;
 }
@@ -174,23 +178,23 @@ void MpasTables::read_tables(Grid& grid) const {
 }
 
 void MpasTables::read_measures(Grid& grid) const {
-  grid.cell_area_m2 = numbers("areaCell", n_cells_);
-  grid.triangle_area_m2 = numbers("areaTriangle", n_vertices_);
+  grid.cell_area_m2 = measure("areaCell", n_cells_);
+  grid.triangle_area_m2 = measure("areaTriangle", n_vertices_);
   grid.kite_area_m2 = rows_of<3>(numbers("kiteAreasOnVertex", n_vertices_, 3));
-  grid.cell_distance_m = numbers("dcEdge", n_edges_);
-  grid.vertex_distance_m = numbers("dvEdge", n_edges_);
-  grid.edge_angle_rad = numbers("angleEdge", n_edges_);
+  grid.cell_distance_m = measure("dcEdge", n_edges_);
+  grid.vertex_distance_m = measure("dvEdge", n_edges_);
+  grid.edge_angle_rad = measure("angleEdge", n_edges_);
   grid.cell_spacing_m = spacing(grid);
   if (file_.has_variable("delos_edge_spacing")) {
-    grid.edge_spacing_m = numbers("delos_edge_spacing", n_edges_);
+    grid.edge_spacing_m = measure("delos_edge_spacing", n_edges_);
   }
 }
 
-std::vector<double> MpasTables::spacing(const Grid& grid) const {
+Array<double> MpasTables::spacing(const Grid& grid) const {
   for (const char* name : {"delos_spacing", "gridSpacing"}) {
-    if (file_.has_variable(name)) return numbers(name, n_cells_);
+    if (file_.has_variable(name)) return measure(name, n_cells_);
   }
-  std::vector<double> mean(at(n_cells_), 0.0);
+  Array<double> mean(at(n_cells_), 0.0);
   for (std::int64_t cell = 0; cell < n_cells_; ++cell) {
     const auto edges = grid.edges_on_cell.row(cell);
     for (const Index edge : edges) {

@@ -100,7 +100,7 @@ Ragged<Index> TopologyReader::nodes_on_face(std::size_t n_nodes) const {
   const std::size_t n_faces = variable.dimensions[transposed ? 1 : 0].length;
   const std::size_t width = variable.dimensions[transposed ? 0 : 1].length;
   Ragged<Index> result;
-  result.offsets.assign(1, 0);
+  Array<std::int64_t> offsets(1, 0);
   for (std::size_t face = 0; face < n_faces; ++face) {
     for (std::size_t k = 0; k < width; ++k) {
       const std::int32_t value = raw[transposed ? k * n_faces + face : face * width + k];
@@ -113,8 +113,9 @@ Ragged<Index> TopologyReader::nodes_on_face(std::size_t n_nodes) const {
                   ". Check start_index and _FillValue.");
       result.values.push_back(static_cast<Index>(node));
     }
-    result.offsets.push_back(static_cast<std::int64_t>(result.values.size()));
+    offsets.push_back(static_cast<std::int64_t>(result.values.size()));
   }
+  result.offsets = RowOffsets(std::move(offsets));
   return result;
 }
 
@@ -188,7 +189,7 @@ UgridMesh TopologyReader::read() const {
   if (file_.text_attribute(topology_, "face_coordinates")) {
     mesh.face_centre = coordinates("face_coordinates");
   }
-  mesh.face_area_m2 = face_areas(mesh.nodes_on_face.offsets.size() - 1);
+  mesh.face_area_m2 = face_areas(static_cast<std::size_t>(mesh.nodes_on_face.offsets.n_rows()));
   read_surface(mesh);
   if (file_.has_variable("delos_edge_spacing")) read_edge_spacing(mesh);
   return mesh;

@@ -71,7 +71,7 @@ struct Exported {
 std::shared_ptr<const Exported> exported(std::shared_ptr<const Product> product,
                                          std::int64_t generation) {
   auto out = std::make_shared<Exported>();
-  const std::vector<LonLat>& places = product->grid->cell_lon_lat;
+  const Array<LonLat>& places = product->grid->cell_lon_lat;
   out->lon_deg.reserve(places.size());
   out->lat_deg.reserve(places.size());
   for (const LonLat& place : places) {

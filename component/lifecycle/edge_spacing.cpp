@@ -26,10 +26,10 @@ std::array<Index, 2> ends_of(const Mesh& mesh, Index tri, int k, EdgeEnds ends) 
 
 }  // namespace
 
-std::vector<double> spacing_at_edges(parallel::Executor& exec, const SpacingOnSurface& spacing,
-                                     EdgeList cells_on_edge,
-                                     const std::function<double(const Vec3&)>& unit) {
-  std::vector<double> out(cells_on_edge.size());
+Array<double> spacing_at_edges(parallel::Executor& exec, const SpacingOnSurface& spacing,
+                               EdgeList cells_on_edge,
+                               const std::function<double(const Vec3&)>& unit) {
+  Array<double> out(cells_on_edge.size());
   const auto n_edges = static_cast<std::int64_t>(out.size());
   parallel::for_range(exec, n_edges, kEdgeGrain, [&](std::int64_t begin, std::int64_t end) {
     std::vector<Vertex> middles(at(end - begin));

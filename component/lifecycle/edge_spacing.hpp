@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/array.hpp"
 #include "core/parallel.hpp"
 #include "geometry/ellipsoid.hpp"
 #include "metrics/quality.hpp"
@@ -26,9 +27,9 @@ struct SpacingOnSurface {
 
 /// The field at the projected middle of the two cells of every edge, times unit(middle): the
 /// metres of a scaled length there.
-std::vector<double> spacing_at_edges(parallel::Executor& exec, const SpacingOnSurface& spacing,
-                                     EdgeList cells_on_edge,
-                                     const std::function<double(const Vec3&)>& unit);
+Array<double> spacing_at_edges(parallel::Executor& exec, const SpacingOnSurface& spacing,
+                               EdgeList cells_on_edge,
+                               const std::function<double(const Vec3&)>& unit);
 
 /// How the two ends of an edge in a file are named.
 enum class EdgeEnds { vertices, triangles };

@@ -101,7 +101,7 @@ void read_mpas_into(GridFile& out) {
 
 /// Corners of triangular faces.
 Corners face_corners(const UgridMesh& ugrid) {
-  Corners corners(ugrid.nodes_on_face.offsets.size() - 1);
+  Corners corners(static_cast<std::size_t>(ugrid.nodes_on_face.offsets.n_rows()));
   for (std::size_t i = 0; i < corners.size(); ++i) {
     const auto row = ugrid.nodes_on_face.row(static_cast<std::int64_t>(i));
     std::copy(row.begin(), row.end(), corners[i].begin());
@@ -112,8 +112,8 @@ Corners face_corners(const UgridMesh& ugrid) {
 /// The triangles of a Voronoi diagram: the three faces around each node, counter-clockwise.
 Corners node_faces(const std::string& path, const UgridMesh& ugrid, const Array<Vertex>& centres) {
   Corners faces(ugrid.node.size(), {kNone, kNone, kNone});
-  for (std::size_t face = 0; face + 1 < ugrid.nodes_on_face.offsets.size(); ++face) {
-    for (const Index node : ugrid.nodes_on_face.row(static_cast<std::int64_t>(face))) {
+  for (std::int64_t face = 0; face < ugrid.nodes_on_face.offsets.n_rows(); ++face) {
+    for (const Index node : ugrid.nodes_on_face.row(face)) {
       auto& row = faces[static_cast<std::size_t>(node)];
       const auto slot = std::find(row.begin(), row.end(), kNone);
       DELOS_CHECK(slot != row.end(), ErrorKind::input, path, ": node ", node,
@@ -145,7 +145,7 @@ void read_ugrid_into(GridFile& out) {
   const UgridMesh ugrid = read_ugrid(out.path);
   if (ugrid.ellipsoid) out.surface = *ugrid.ellipsoid;
   out.latitude = ugrid.latitude;
-  const std::size_t n_faces = ugrid.nodes_on_face.offsets.size() - 1;
+  const auto n_faces = static_cast<std::size_t>(ugrid.nodes_on_face.offsets.n_rows());
   bool all_triangles = true;
   for (std::size_t i = 0; i < n_faces && all_triangles; ++i) {
     all_triangles = ugrid.nodes_on_face.row(static_cast<std::int64_t>(i)).size() == 3;
@@ -205,7 +205,7 @@ GridFile read_grid_file(Context& context, const std::string& path) {
   return out;
 }
 
-Mesh mesh_from_triangles(Array<Vertex> vertices, const Corners& corners) {
+Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Index, 3>> corners) {
   struct Side {
     Index low, high, tri, side;
     bool operator<(const Side& other) const {

@@ -2,6 +2,7 @@
 #pragma once
 // Grids read back from files, as triangulation and C-grid.
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,6 @@ GridFile read_grid_file(Context& context, const std::string& path);
 
 /// Closes triangles over points into a mesh: finds the neighbours. Error(input), naming the edge,
 /// unless every edge has exactly one triangle on each side.
-Mesh mesh_from_triangles(Array<Vertex> vertices, const std::vector<std::array<Index, 3>>& corners);
+Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Index, 3>> corners);
 
 }  // namespace delos

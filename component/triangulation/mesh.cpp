@@ -15,6 +15,17 @@ std::vector<Index> triangle_at_vertex(const Mesh& mesh) {
   return at;
 }
 
+std::vector<Index> triangle_at_vertex(parallel::Executor& exec, const Mesh& mesh) {
+  constexpr std::int64_t kGrain = 16384;  // triangles; about 0.1 ms
+  std::vector<Index> at(mesh.vertices.size(), kNone);
+  parallel::for_index(exec, mesh.n_triangles(), kGrain, [&](std::int64_t tri) {
+    for (const Index vertex : mesh.triangle(static_cast<Index>(tri)).vertex) {
+      parallel::lower_to(at[static_cast<std::size_t>(vertex)], static_cast<Index>(tri));
+    }
+  });
+  return at;
+}
+
 std::string digest(const Mesh& mesh) {
   // Counts first, so that no two meshes give the same stream of bytes; blocks, for speed.
   constexpr std::size_t kBlock = 4096;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/array.hpp"
+#include "core/parallel.hpp"
 #include "core/types.hpp"
 
 namespace delos {
@@ -59,8 +60,15 @@ inline int corner_at(const Triangle& tri, Index vertex) {
   return -1;
 }
 
+/// The same for a vertex that is a corner of `tri`; without a branch, which could not be foretold.
+inline int own_corner_at(const Triangle& tri, Index vertex) {
+  return static_cast<int>(tri.vertex[1] == vertex) + 2 * static_cast<int>(tri.vertex[2] == vertex);
+}
+
 /// One triangle at every vertex (the one of lowest id), kNone for a vertex of none.
 std::vector<Index> triangle_at_vertex(const Mesh& mesh);
+/// The same by all threads.
+std::vector<Index> triangle_at_vertex(parallel::Executor& exec, const Mesh& mesh);
 
 /// Digest (SHA-256, hex) of positions and triangle corners: two meshes are "the same to the last
 /// bit" iff these agree.

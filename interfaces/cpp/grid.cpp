@@ -15,13 +15,17 @@ namespace {
 
 /// Rows of plain numbers seen as the numbers.
 template <class Number, class Row>
-std::span<const Number> flat(const std::vector<Row>& rows) {
+std::span<const Number> flat(std::span<const Row> all) {
   static_assert(std::is_standard_layout_v<Row> && sizeof(Row) % sizeof(Number) == 0);
-  const std::span<const Row> all(rows);
   return {reinterpret_cast<const Number*>(all.data()), all.size_bytes() / sizeof(Number)};
 }
 
-std::span<const double> flat(const std::vector<Vec3>& points) {
+template <class Number, class Row>
+std::span<const Number> flat(const Array<Row>& rows) {
+  return flat<Number>(std::span<const Row>(rows));
+}
+
+std::span<const double> flat(const Array<Vec3>& points) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   return {points.empty() ? nullptr : points.front().data(), 3 * points.size()};
 }
@@ -96,9 +100,9 @@ void write_file(const Product& product, FileKind kind, const std::string& path) 
 Grid GridAccess::make(std::shared_ptr<const Product> product, std::int64_t generation) {
   auto impl = std::make_shared<Grid::Impl>(std::move(product), generation);
   const Product& own = impl->product;
-  const auto& offsets = own.grid->edges_on_cell.offsets;
-  for (std::size_t i = 1; i < offsets.size(); ++i) {
-    impl->max_edges = std::max(impl->max_edges, offsets[i] - offsets[i - 1]);
+  const RowOffsets& offsets = own.grid->edges_on_cell.offsets;
+  for (std::int64_t cell = 0; cell < offsets.n_rows(); ++cell) {
+    impl->max_edges = std::max(impl->max_edges, offsets.length_of(cell));
   }
   impl->quality = summary(own.report.quality);
   impl->certificate = public_certificate(own);
@@ -140,7 +144,7 @@ double Grid::scale_m() const { return impl_->product.grid->surface.scale_m(); }
 DELOS_FLAT(double, cell_lon_lat, cell_lon_lat)
 DELOS_FLAT(double, edge_lon_lat, edge_lon_lat)
 DELOS_FLAT(double, vertex_lon_lat, vertex_lon_lat)
-DELOS_FLAT(std::int64_t, cell_offsets, edges_on_cell.offsets)
+DELOS_FLAT(std::int64_t, cell_offsets, edges_on_cell.offsets.positions())
 DELOS_FLAT(std::int32_t, edges_on_cell, edges_on_cell.values)
 DELOS_FLAT(std::int32_t, vertices_on_cell, vertices_on_cell.values)
 DELOS_FLAT(std::int32_t, cells_on_cell, cells_on_cell.values)
@@ -148,7 +152,7 @@ DELOS_FLAT(std::int32_t, cells_on_edge, cells_on_edge)
 DELOS_FLAT(std::int32_t, vertices_on_edge, vertices_on_edge)
 DELOS_FLAT(std::int32_t, cells_on_vertex, cells_on_vertex)
 DELOS_FLAT(std::int32_t, edges_on_vertex, edges_on_vertex)
-DELOS_FLAT(std::int64_t, edge_offsets, edges_on_edge.offsets)
+DELOS_FLAT(std::int64_t, edge_offsets, edges_on_edge.offsets.positions())
 DELOS_FLAT(std::int32_t, edges_on_edge, edges_on_edge.values)
 DELOS_FLAT(double, weights_on_edge, weights_on_edge.values)
 DELOS_FLAT(double, cell_area_m2, cell_area_m2)

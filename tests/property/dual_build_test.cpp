@@ -20,7 +20,7 @@ std::string broken_rules(Context& context, const Grid& grid) {
   return all;
 }
 
-double relative_sum(const std::vector<double>& areas, const Ellipsoid& surface) {
+double relative_sum(std::span<const double> areas, const Ellipsoid& surface) {
   double sum = 0.0;
   for (const double area : areas) sum += area;
   return std::abs(sum / (surface.area() * surface.scale_m() * surface.scale_m()) - 1.0);

@@ -4,8 +4,11 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <vector>
 
 #include "core/hash.hpp"
 #include "core/types.hpp"
@@ -77,6 +80,28 @@ TEST_CASE("atan2 keeps its range at the axes, at zero and at the largest doubles
   CHECK(elementary::atan2(5e-324, -1e308) == kPi);
   CHECK(elementary::atan2(std::numeric_limits<double>::infinity(), 1) == kPi / 2);
   CHECK(std::isnan(elementary::atan2(std::nan(""), 1)));
+}
+
+TEST_CASE("atan2 of many arguments has the bits of one at a time") {
+  constexpr std::size_t kLength = 64 * 50 + 13;     // no whole number of batches
+  for (const double range : {2.0, 40.0, 2000.0}) {  // the last one leaves the ordinary numbers
+    std::vector<double> y(kLength), x(kLength), angle(kLength);
+    for (std::size_t i = 0; i < kLength; ++i) {
+      x[i] = (uniform01(1, i) - 0.5) * std::exp2(range * (uniform01(2, i) - 0.5));
+      y[i] = (uniform01(3, i) - 0.5) * std::exp2(range * (uniform01(4, i) - 0.5));
+      if (i % 17 == 3) x[i] = 0.0;
+      if (i % 19 == 5) y[i] = -0.0;
+      if (i % 23 == 7) x[i] = -std::abs(y[i]);
+    }
+    elementary::atan2(y, x, angle);
+    std::size_t n_different = 0;
+    for (std::size_t i = 0; i < kLength; ++i) {
+      n_different += std::bit_cast<std::uint64_t>(angle[i]) !=
+                     std::bit_cast<std::uint64_t>(elementary::atan2(y[i], x[i]));
+    }
+    CAPTURE(range);
+    CHECK(n_different == 0);
+  }
 }
 
 TEST_CASE("asin and acos are within two ulps and clamp their argument") {

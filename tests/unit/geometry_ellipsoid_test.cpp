@@ -103,6 +103,22 @@ TEST_CASE("latitude kinds mean what they say") {
         doctest::Approx(flat * std::tan(0.6)).epsilon(1e-14));
 }
 
+TEST_CASE("longitudes and latitudes of many points have the bits of one at a time") {
+  std::vector<Vec3> points = {{1, 0, 0}, {0, 0, 1}, {0, 0, -1}, {-1, 0, 0}, {-1, -0.0, 0}};
+  for (std::uint64_t i = 0; i < 400; ++i) points.push_back(random_direction(15, i));
+  std::vector<LonLat> places(points.size());
+  for (const LatitudeKind kind :
+       {LatitudeKind::geodetic, LatitudeKind::geocentric, LatitudeKind::parametric}) {
+    for (Vec3& point : points) point = kTriaxial.project(point);
+    kTriaxial.lon_lat(points, kind, places);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const LonLat one = kTriaxial.lon_lat(points[i], kind);
+      REQUIRE(one.lon_rad == places[i].lon_rad);
+      REQUIRE(one.lat_rad == places[i].lat_rad);
+    }
+  }
+}
+
 TEST_CASE("poles and date line have their longitudes and latitudes") {
   CHECK(kUnit.lon_lat({0, 0, 1}, LatitudeKind::geodetic).lat_rad == kPi / 2);
   CHECK(kUnit.lon_lat({0, 0, -1}, LatitudeKind::geodetic).lat_rad == -kPi / 2);
@@ -206,5 +222,43 @@ TEST_CASE("the area of a small ellipsoidal triangle is right to its last digits"
     const double parts = kTriaxial.triangle_area(a, ab, ca) + kTriaxial.triangle_area(b, bc, ab) +
                          kTriaxial.triangle_area(c, ca, bc) + kTriaxial.triangle_area(ab, bc, ca);
     REQUIRE(std::abs(whole - parts) < 1e-17);
+  }
+}
+
+TEST_CASE("the areas of a fan are those of its triangles") {
+  const Ellipsoid flat({1, 1, 0.3}, {0, 0, 0});
+  for (const Ellipsoid* surface : {&kUnit, &kWgs84, &kTriaxial, &flat}) {
+    for (const double size : {1e-6, 1e-3, 0.005, 0.1}) {  // the last one is not small
+      for (std::uint64_t i = 0; i < 20; ++i) {
+        const Vec3 centre = surface->project(random_direction(41, i));
+        std::array<Vec3, 6> ring;
+        for (std::size_t k = 0; k < 6; ++k) {
+          ring[k] = surface->project(centre + size * random_direction(42, 6 * i + k));
+        }
+        const auto areas = surface->fan_areas(centre, ring);
+        for (std::size_t k = 0; k < 6; ++k) {
+          const double one = surface->triangle_area(centre, ring[k], ring[(k + 1) % 6]);
+          REQUIRE(std::abs(areas[k] - one) <= 1e-13 * std::abs(one) + 1e-16 * size);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("small triangles, which take a lower rule, add up to large ones") {
+  for (const Ellipsoid* surface : {&kWgs84, &kTriaxial}) {
+    // 4^8 and 4^3 triangles of an octahedron's face: sides of about 0.006 and 0.2.
+    const auto fine = octahedral_triangles(*surface, 8);
+    const auto coarse = octahedral_triangles(*surface, 3);
+    const std::size_t n_parts = fine.size() / coarse.size();
+    for (std::size_t i = 0; i < coarse.size(); ++i) {
+      const auto& [a, b, c] = coarse[i];
+      double sum = 0;
+      for (std::size_t k = 0; k < n_parts; ++k) {
+        const auto& [p, q, r] = fine[i * n_parts + k];
+        sum += surface->triangle_area(p, q, r);
+      }
+      REQUIRE(relative(sum, surface->triangle_area(a, b, c)) < 2e-14);
+    }
   }
 }

@@ -52,7 +52,7 @@ void check_same_tables(const Grid& a, const Grid& b) {
   same(a.weights_on_edge, b.weights_on_edge);
 }
 
-void check_same_places(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+void check_same_places(std::span<const Vec3> a, std::span<const Vec3> b) {
   REQUIRE(a.size() == b.size());
   double worst = 0.0;
   for (std::size_t i = 0; i < a.size(); ++i) worst = std::max(worst, (a[i] - b[i]).norm());

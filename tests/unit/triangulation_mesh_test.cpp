@@ -38,6 +38,8 @@ const Ellipsoid kSphere;
 TEST_CASE("triangle_at_vertex is the lowest triangle of each vertex") {
   const Mesh mesh = icosahedron();
   const std::vector<Index> at = triangle_at_vertex(mesh);
+  parallel::Executor exec(4);
+  CHECK(triangle_at_vertex(exec, mesh) == at);
   for (Index v = 0; v < mesh.n_vertices(); ++v) {
     Index lowest = kNone;
     for (Index tri = mesh.n_triangles() - 1; tri >= 0; --tri) {

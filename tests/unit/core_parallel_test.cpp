@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "core/parallel.hpp"
+
+#include <doctest/doctest.h>
+
+#include "core/hash.hpp"
+
+using namespace delos;
+
+TEST_CASE("counts become positions, for any length, grain and number of threads") {
+  constexpr std::int64_t kUnset = -77;  // the last value is not read
+  for (const int threads : {1, 4}) {
+    parallel::Executor exec(threads);
+    for (const std::int64_t n : {0, 1, 7, 8, 9, 1000}) {
+      for (const std::int64_t grain : {1, 8, 4096}) {
+        const auto count = [](std::int64_t i) {
+          return static_cast<std::int64_t>(hash64(3, static_cast<std::uint64_t>(i)) % 10);
+        };
+        std::vector<std::int64_t> positions, wanted = {0};
+        for (std::int64_t i = 0; i < n; ++i) {
+          positions.push_back(count(i));
+          wanted.push_back(wanted.back() + count(i));
+        }
+        positions.push_back(kUnset);
+        parallel::scan_counts(exec, grain, positions);
+        CHECK(positions == wanted);
+        CHECK(parallel::exclusive_scan(exec, n, grain, count) == wanted);
+      }
+    }
+  }
+}
+
+TEST_CASE("the smallest of all threads' values remains, none counting as the largest") {
+  parallel::Executor exec(4);
+  constexpr std::int64_t kValues = 100000;
+  std::vector<Index> slots(3, kNone);
+  parallel::for_index(exec, kValues, 64, [&](std::int64_t i) {
+    const auto value = static_cast<Index>(hash64(5, static_cast<std::uint64_t>(i)) >> 40);
+    parallel::lower_to(slots[static_cast<std::size_t>(i % 2)], value);
+  });
+  std::vector<Index> wanted(3, kNone);
+  for (std::int64_t i = 0; i < kValues; ++i) {
+    const auto value = static_cast<Index>(hash64(5, static_cast<std::uint64_t>(i)) >> 40);
+    Index& slot = wanted[static_cast<std::size_t>(i % 2)];
+    if (slot == kNone || value < slot) slot = value;
+  }
+  CHECK(slots == wanted);
+}
