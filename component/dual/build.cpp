@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dual/build.hpp"
 
-#include <bit>
-
-#include "core/hash.hpp"
 #include "dual/areas.hpp"
 #include "dual/connectivity.hpp"
 #include "dual/edge_weights.hpp"
@@ -19,31 +16,6 @@ void check_closed(const Mesh& mesh) {
               "the mesh has ", n_vertices, " vertices and ", n_triangles,
               " triangles: a grid needs a closed surface with 2 n - 4 triangles; run validate() on "
               "the mesh to find the place.");
-}
-
-template <class T>
-void add(Digest& digest, std::span<const T> values) {
-  static_assert(std::endian::native == std::endian::little, "digests are over little-endian bytes");
-  const std::uint64_t n = values.size();
-  digest.add(&n, sizeof n);
-  digest.add(values.data(), values.size() * sizeof(T));
-}
-
-template <class T>
-void add(Digest& digest, const Array<T>& values) {
-  add(digest, std::span<const T>(values));
-}
-
-template <class T>
-void add(Digest& digest, const Ragged<T>& table) {
-  add(digest, table.offsets.positions());
-  add(digest, table.values);
-}
-
-void add(Digest& digest, const Ellipsoid& surface) {
-  const Vec3 radii_m = surface.scale_m() * surface.radii();
-  digest.add(radii_m.data(), sizeof(Vec3));
-  digest.add(surface.centre_m().data(), sizeof(Vec3));
 }
 
 }  // namespace
@@ -70,34 +42,6 @@ Grid build_grid(Context& context, const Ellipsoid& surface, LatitudeKind latitud
   dual::weigh_edges(context.exec, grid);
   context.monitor.advance(mesh.n_vertices() - 4 * (mesh.n_vertices() / 5));
   return grid;
-}
-
-std::string digest(const Grid& grid) {
-  Digest digest;
-  add(digest, grid.surface);
-  add(digest, grid.cell_position);
-  add(digest, grid.edge_position);
-  add(digest, grid.vertex_position);
-  add(digest, grid.cell_lon_lat);
-  add(digest, grid.edge_lon_lat);
-  add(digest, grid.vertex_lon_lat);
-  add(digest, grid.edges_on_cell);
-  add(digest, grid.vertices_on_cell);
-  add(digest, grid.cells_on_cell);
-  add(digest, grid.cells_on_edge);
-  add(digest, grid.vertices_on_edge);
-  add(digest, grid.cells_on_vertex);
-  add(digest, grid.edges_on_vertex);
-  add(digest, grid.edges_on_edge);
-  add(digest, grid.cell_area_m2);
-  add(digest, grid.triangle_area_m2);
-  add(digest, grid.kite_area_m2);
-  add(digest, grid.cell_distance_m);
-  add(digest, grid.vertex_distance_m);
-  add(digest, grid.edge_angle_rad);
-  add(digest, grid.weights_on_edge);
-  add(digest, grid.cell_spacing_m);
-  return digest.hex();
 }
 
 }  // namespace delos

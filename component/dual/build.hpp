@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // From a triangulation to the finished C-grid: Voronoi cells, tables, measures, weights.
-#include <string>
-
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
 #include "geometry/ellipsoid.hpp"
@@ -20,9 +18,5 @@ namespace delos {
 /// that the caller has begun by n_cells in all.
 Grid build_grid(Context& context, const Ellipsoid& surface, LatitudeKind latitude,
                 const Mesh& mesh);
-
-/// SHA-256 (hex) over every array of the grid in the order of its declaration, sizes included: two
-/// grids are "the same to the last bit" iff these agree.
-std::string digest(const Grid& grid);
 
 }  // namespace delos

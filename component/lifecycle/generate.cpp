@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "dual/build.hpp"
+#include "dual/digest.hpp"
 #include "lifecycle/baselines.hpp"
 #include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/estimate.hpp"
@@ -116,7 +117,7 @@ void build_dual(Context& context, Product& product) {
   product.grid->edge_spacing_m =
       spacing_at_edges(context.exec, {surface, product.spacing, product.mesh.vertices},
                        product.grid->cells_on_edge, [&](const Vec3&) { return surface.scale_m(); });
-  product.report.sections.push_back({"dual", {{"digest", digest(*product.grid)}}});
+  product.report.sections.push_back({"dual", {{"digest", digest(context.exec, *product.grid)}}});
 }
 
 FileNotes file_notes(const Product& product, const std::string& command) {

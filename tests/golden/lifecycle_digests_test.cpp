@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "dual/build.hpp"
+#include "dual/digest.hpp"
 #include "lifecycle/generate.hpp"
 #include "lifecycle/settings_tree.hpp"
 
@@ -49,7 +50,7 @@ std::string digests_of(const std::string& yaml) {
   Context context{exec, monitor};
   const Settings settings = read_settings(parse_config(yaml, "golden.yaml"), ".");
   const Product product = generate(context, settings, {true, ""});
-  return product.report.digest + " " + digest(*product.grid);
+  return product.report.digest + " " + digest(exec, *product.grid);
 }
 
 std::map<std::string, std::string> read_golden() {

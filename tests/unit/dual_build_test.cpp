@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "dual/build.hpp"
+#include "dual/digest.hpp"
 
 #include <doctest/doctest.h>
 
@@ -123,8 +124,18 @@ TEST_CASE("the grid digest sees one bit of one array") {
   const Ellipsoid surface;
   Grid grid = build_grid(host.context, surface, LatitudeKind::geodetic,
                          samples::bisected_icosahedron(surface, 1));
-  const std::string before = digest(grid);
+  parallel::Executor& exec = host.context.exec;
+  const std::string before = digest(exec, grid);
   CHECK(before.size() == 64);
-  grid.weights_on_edge.values[5] = std::nextafter(grid.weights_on_edge.values[5], 1.0);
-  CHECK(digest(grid) != before);
+  Grid changed = grid;
+  changed.weights_on_edge.values[5] = std::nextafter(grid.weights_on_edge.values[5], 1.0);
+  CHECK(digest(exec, changed) != before);
+  changed = grid;
+  Array<std::int64_t> rows(grid.cells_on_cell.offsets.positions().begin(),
+                           grid.cells_on_cell.offsets.positions().end());
+  changed.cells_on_cell.offsets = RowOffsets(rows);  // no longer shared, still the same
+  CHECK(digest(exec, changed) == before);
+  ++rows[3];
+  changed.cells_on_cell.offsets = RowOffsets(rows);
+  CHECK(digest(exec, changed) != before);
 }
