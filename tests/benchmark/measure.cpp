@@ -149,7 +149,11 @@ Json measure(const Case& benchmark_case, int threads, const std::string& folder)
   std::map<std::string, double> peak_mib;
   double whole_mib = 0.0;
   // The kernel's count is not exact and may fall a little; a peak may not.
-  const auto note_peak = [&] { return whole_mib = std::max(whole_mib, process_mib("VmHWM")); };
+  bool runs = true;
+  const auto note_peak = [&] {
+    if (runs) whole_mib = std::max(whole_mib, process_mib("VmHWM"));
+    return whole_mib;
+  };
   parallel::Executor exec(threads);
   Monitor monitor([&](const Progress& progress) { peak_mib[progress.phase] = note_peak(); }, {},
                   nullptr);
@@ -160,6 +164,7 @@ Json measure(const Case& benchmark_case, int threads, const std::string& folder)
   }
   note_peak();
   // What follows is measured beside the run and takes memory of its own.
+  runs = false;
   time_limiter(context, settings);
   if (settings.surface.is_sphere()) time_building(context, product.mesh);
 
