@@ -278,7 +278,7 @@ PolishReport polish(Context& context, const Target& target, const RelaxOptions& 
   const RepairOptions repair{aim.quality, options.repair};
   context.monitor.advance(mesh.n_triangles() - static_cast<std::int64_t>(bad.size()));
   TriedMeans tried(mesh.vertices.size(), 0);
-  TriangleAtVertex at_vertex = triangle_at_vertex(mesh);
+  TriangleAtVertex at_vertex = triangle_at_vertex(context.exec, mesh);
   std::vector<char> is_taken(mesh.vertices.size(), 0);
   const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
   MeshEdits edits;

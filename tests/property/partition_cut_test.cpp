@@ -7,6 +7,7 @@
 #include <set>
 
 #include "core/hash.hpp"
+#include "dual/digest.hpp"
 #include "partition/partition.hpp"
 #include "support/expect_error.hpp"
 #include "support/sample_grids.hpp"
@@ -188,7 +189,8 @@ void check_values(const Grid& grid, const std::vector<Subgrid>& subgrids) {
     }
     CHECK(same_weights);
   }
-  CHECK(digest(whole) == digest(grid));
+  parallel::Executor exec(1);
+  CHECK(digest(exec, whole) == digest(exec, grid));
 }
 
 using Ids = std::vector<Index>;
