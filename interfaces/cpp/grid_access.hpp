@@ -23,6 +23,7 @@ struct Grid::Impl {
 
 struct GridAccess {
   static Grid make(std::shared_ptr<const Product> product, std::int64_t generation);
+  static const Product& product(const Grid& grid) { return grid.impl_->product; }
 };
 
 }  // namespace delos::api

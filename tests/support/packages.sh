@@ -7,7 +7,7 @@ delos_build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev 
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libnetcdf-dev libcairo2-dev fonts-dejavu-core
   libmetis-dev)
 delos_data_packages=(ferret-datasets)
-delos_test_packages=(doctest-dev python3 gfortran udunits-bin)
+delos_test_packages=(doctest-dev python3 gfortran udunits-bin mpich libmpich-dev)
 delos_ci_packages=(clang clang-tidy-14 clang-format-14 libclang-rt-14-dev ccache git)
 
 has_package() {

@@ -12,6 +12,7 @@
 #include "delos/field.hpp"      // IWYU pragma: export
 #include "delos/generate.hpp"   // IWYU pragma: export
 #include "delos/grid.hpp"       // IWYU pragma: export
+#include "delos/partition.hpp"  // IWYU pragma: export
 #include "delos/state.hpp"      // IWYU pragma: export
 #include "delos/time.hpp"       // IWYU pragma: export
 #include "delos/version.hpp"    // IWYU pragma: export
