@@ -59,6 +59,9 @@ bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {
     if (!(p.z() > 0.0)) return false;
     subject_.push_back({p.x() / p.z(), p.y() / p.z(), kNone});
   }
+  for (std::size_t k = 0; k < subject_.size(); ++k) {
+    subject_[k].side = ~static_cast<Index>(k + 1 == subject_.size() ? 0 : k + 1);
+  }
   return true;
 }
 
@@ -121,6 +124,25 @@ double Clipper::area(const Ellipsoid& surface, std::span<const Corner> corners) 
     b = c;
   }
   return sum;
+}
+
+double Clipper::part_of_side(std::span<const Corner> corners, std::size_t k) const {
+  const Corner &p = corners[k], &q = corners[k + 1 == corners.size() ? 0 : k + 1];
+  const auto length = [](double x, double y) { return std::sqrt(x * x + y * y); };
+  const double part = length(q.x - p.x, q.y - p.y);
+  const bool is_own = p.side < 0;
+  const auto to = static_cast<std::size_t>(is_own ? ~p.side : p.side);
+  const std::size_t n = is_own ? subject_.size() : clipping_.size();
+  const std::size_t from = to == 0 ? n - 1 : to - 1;
+  double whole = 0.0;
+  if (is_own) {
+    whole = length(subject_[to].x - subject_[from].x, subject_[to].y - subject_[from].y);
+  } else {
+    const Vec3 &a = clipping_[from], &b = clipping_[to];
+    if (!(a.z() > 0.0 && b.z() > 0.0)) return 0.0;  // round the body: coarse beyond caring
+    whole = length(b.x() / b.z() - a.x() / a.z(), b.y() / b.z() - a.y() / a.z());
+  }
+  return whole > 0.0 ? part / whole : 0.0;
 }
 
 Vec3 Clipper::middle(const Ellipsoid& surface, std::span<const Corner> corners) const {

@@ -33,7 +33,8 @@ class Frame {
 
 struct Corner {
   double x, y;
-  Index side;  ///< of the clipping polygon that the side from here on lies on; kNone: own side
+  Index side;  ///< what the side from here on lies on: side k of the clipping polygon or, as ~k, of
+               ///< the clipped one
 };
 
 /// Keeps its memory from one intersection to the next; one for each task.
@@ -46,6 +47,8 @@ class Clipper {
   std::span<const Corner> clip(const Tiling& tiling, std::int64_t polygon);
   /// Area in scaled units.
   double area(const Ellipsoid& surface, std::span<const Corner> corners) const;
+  /// The part of the side from corner k on in the side of one of the two polygons that it lies on.
+  double part_of_side(std::span<const Corner> corners, std::size_t k) const;
   /// Surface point in the middle of the corners' polygon.
   Vec3 middle(const Ellipsoid& surface, std::span<const Corner> corners) const;
 

@@ -201,10 +201,10 @@ class Search {
         for (const Index beside : neighbours) enqueue(beside);
       }
       for (const Corner& corner : corners) {
-        if (corner.side != kNone) enqueue(neighbours[at(corner.side)]);
+        if (corner.side >= 0) enqueue(neighbours[at(corner.side)]);
       }
       if (corners.size() >= 3 && !plan_.is_taken[at(source)]) {
-        sum_m2 += add(source, area_m2, corners, found);
+        sum_m2 += add(source, target, corners, found);
       }
     }
     return std::abs(sum_m2 / area_m2 - 1.0);
@@ -212,12 +212,20 @@ class Search {
   void enqueue(Index source) {
     if (seen_.add(source)) queue_.push_back(source);
   }
-  double add(Index source, double target_m2, std::span<const Corner> corners,
+  double add(Index source, Index target, std::span<const Corner> corners,
              std::vector<Found>& found) {
     const Ellipsoid& surface = plan_.target.surface();
-    const double scale = surface.scale_m();
-    const double area_m2 = scale * scale * clipper_.area(surface, corners);
-    if (!(area_m2 > kSliver * std::min(target_m2, plan_.source.area_m2()[at(source)]))) return 0.0;
+    double area = clipper_.area(surface, corners);
+    for (std::size_t k = 0; k < corners.size(); ++k) {
+      const Index side = corners[k].side;
+      const double bow =
+          side < 0 ? plan_.target.bow(target, at(~side)) : plan_.source.bow(source, at(side));
+      if (bow != 0.0) area += bow * clipper_.part_of_side(corners, k);
+    }
+    const double area_m2 = surface.scale_m() * surface.scale_m() * area;
+    const double smaller_m2 =
+        std::min(plan_.target.area_m2()[at(target)], plan_.source.area_m2()[at(source)]);
+    if (!(area_m2 > kSliver * smaller_m2)) return 0.0;
     found.push_back({source, area_m2, clipper_.middle(surface, corners)});
     return area_m2;
   }

@@ -10,11 +10,21 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 
-Tiling Tiling::cells(const Grid& grid) {
+Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
   Tiling tiling;
   tiling.grid_ = &grid;
   tiling.corner_position_ = grid.vertex_position;
   tiling.area_m2_ = grid.cell_area_m2;
+  tiling.bow_of_edge_.resize(at(grid.n_edges()));
+  parallel::for_index(exec, grid.n_edges(), kTriangleGrain, [&](std::int64_t edge) {
+    const auto [v, w] = grid.vertices_on_edge[at(edge)];
+    const Vec3& from = grid.vertex_position[at(v)];
+    const Vec3 to_middle = grid.edge_position[at(edge)] - from;
+    const Vec3 to_end = grid.vertex_position[at(w)] - from;
+    // Surface over solid angle: |W y| where y W y = 1, and 1 on the sphere.
+    const double density = from.cwiseProduct(grid.surface.inverse_square()).norm();
+    tiling.bow_of_edge_[at(edge)] = 0.5 * density * from.dot(to_middle.cross(to_end));
+  });
   return tiling;
 }
 

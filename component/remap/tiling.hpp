@@ -14,7 +14,7 @@ namespace delos::remap {
 /// neighbour k is across it. A view: the grid must outlive it.
 class Tiling {
  public:
-  static Tiling cells(const Grid& grid);
+  static Tiling cells(parallel::Executor& exec, const Grid& grid);
   static Tiling triangles(parallel::Executor& exec, const Grid& grid);
 
   std::int64_t size() const { return static_cast<std::int64_t>(area_m2_.size()); }
@@ -32,6 +32,14 @@ class Tiling {
   std::span<const Vec3> centres() const {
     return of_cells_ ? std::span<const Vec3>(grid_->cell_position) : own_centre_;
   }
+  /// What polygon i has beyond its straight side k, scaled area: where rounding, relative to the
+  /// square of the spacing, put the grid's edge off that side. Opposite in the neighbour.
+  double bow(std::int64_t i, std::size_t k) const {
+    if (bow_of_edge_.empty()) return 0.0;
+    const Index edge = grid_->edges_on_cell.row(i)[k];
+    const double bow = bow_of_edge_[static_cast<std::size_t>(edge)];
+    return grid_->cells_on_edge[static_cast<std::size_t>(edge)][0] == i ? bow : -bow;
+  }
   /// As in the grid, [size()].
   std::span<const double> area_m2() const { return area_m2_; }
 
@@ -40,6 +48,7 @@ class Tiling {
   bool of_cells_ = true;
   std::span<const Vec3> corner_position_;
   std::span<const double> area_m2_;
+  Array<double> bow_of_edge_;                    // of its first cell; empty for triangles
   Array<std::array<Index, 3>> beside_triangle_;  // empty for cells
   Array<Vec3> own_centre_;                       // empty for cells
 };

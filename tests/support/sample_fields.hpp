@@ -25,7 +25,8 @@ inline remap::Overlaps overlaps_of(const Grid& source, const Grid& target, int t
   parallel::Executor exec(threads);
   Monitor monitor;
   Context context{exec, monitor};
-  return remap::intersect(context, remap::Tiling::cells(source), remap::Tiling::cells(target));
+  return remap::intersect(context, remap::Tiling::cells(exec, source),
+                          remap::Tiling::cells(exec, target));
 }
 
 /// Positive and rough: it changes by a factor from cell to cell.

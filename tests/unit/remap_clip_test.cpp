@@ -10,7 +10,9 @@ using namespace delos;
 namespace {
 
 double sum_of_parts(const Grid& grid, const Grid& other) {
-  const auto subject = remap::Tiling::cells(grid), clipping = remap::Tiling::cells(other);
+  parallel::Executor exec(1);
+  const auto subject = remap::Tiling::cells(exec, grid),
+             clipping = remap::Tiling::cells(exec, other);
   remap::Clipper clipper;
   double sum = 0.0;
   for (std::int64_t i = 0; i < subject.size(); ++i) {
@@ -26,8 +28,9 @@ double sum_of_parts(const Grid& grid, const Grid& other) {
 }  // namespace
 
 TEST_CASE("a cell clipped by itself keeps its area, its middle is inside") {
+  parallel::Executor exec(1);
   const Grid grid = samples::grid_of(Ellipsoid(), samples::shaken(Ellipsoid(), 2, 0.2, 3));
-  const auto cells = remap::Tiling::cells(grid);
+  const auto cells = remap::Tiling::cells(exec, grid);
   remap::Clipper clipper;
   for (std::int64_t i = 0; i < cells.size(); ++i) {
     REQUIRE(clipper.begin(cells, i));
@@ -45,9 +48,10 @@ TEST_CASE("a cell clipped by itself keeps its area, its middle is inside") {
 }
 
 TEST_CASE("cells that share a side or a corner have no area in common") {
+  parallel::Executor exec(1);
   const Grid grid =
       samples::grid_of(Ellipsoid::wgs84(), samples::shaken(Ellipsoid::wgs84(), 2, 0.2, 5));
-  const auto cells = remap::Tiling::cells(grid);
+  const auto cells = remap::Tiling::cells(exec, grid);
   remap::Clipper clipper;
   for (std::int64_t i = 0; i < cells.size(); ++i) {
     REQUIRE(clipper.begin(cells, i));
@@ -71,6 +75,7 @@ TEST_CASE("the parts of all cells sum to the surface, cells as large as an octan
 }
 
 TEST_CASE("slivers keep their relative accuracy") {
+  parallel::Executor exec(1);
   // Two octants, one turned about the axis through their common corner, overlap in lunes.
   const Ellipsoid sphere;
   Mesh mesh = samples::split_cube(sphere);
@@ -81,10 +86,11 @@ TEST_CASE("slivers keep their relative accuracy") {
   }
   const Grid turned = samples::grid_of(sphere, mesh);
   remap::Clipper clipper;
-  REQUIRE(clipper.begin(remap::Tiling::cells(cube), 0));
+  const auto fixed = remap::Tiling::cells(exec, cube), moved = remap::Tiling::cells(exec, turned);
+  REQUIRE(clipper.begin(fixed, 0));
   int n_slivers = 0;
   for (std::int64_t j = 1; j < 4; ++j) {
-    const auto corners = clipper.clip(remap::Tiling::cells(turned), j);
+    const auto corners = clipper.clip(moved, j);
     if (corners.size() < 3) continue;
     ++n_slivers;
     // From pole to equator, `angle` wide.
