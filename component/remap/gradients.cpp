@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "remap/gradients.hpp"
+
+#include <algorithm>
+
+namespace delos::remap {
+namespace {
+
+constexpr std::int64_t kSourceGrain = 2048;  // about 0.2 ms of stencils
+
+// Neighbours that lie in one line (determinant against the square of the trace) give no gradient
+// across it: the source is transferred to first order.
+constexpr double kInLine = 1e-6;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+struct Plane {
+  Vec3 east, north;
+};
+
+Plane touching(const Vec3& p) {
+  const Vec3 up = p.normalized();
+  int smallest = 0;
+  up.cwiseAbs().minCoeff(&smallest);
+  const Vec3 east = Vec3(Vec3::Unit(smallest)).cross(up).normalized();
+  return {east, up.cross(east)};
+}
+
+// Normal equations of min sum (g . d_k - (f_k - f_j))^2 in the plane.
+void fit(const Tiling& source, const Overlaps& overlaps, std::int64_t j, std::span<Vec3> row) {
+  const auto neighbours = source.neighbours(j);
+  const Vec3& here = overlaps.source_middle[at(j)];
+  const Plane plane = touching(here);
+  double xx = 0.0, xy = 0.0, yy = 0.0;
+  for (std::size_t k = 0; k < row.size(); ++k) {
+    const Vec3 d = overlaps.source_middle[at(neighbours[k])] - here;
+    const double x = d.dot(plane.east), y = d.dot(plane.north);
+    row[k] = Vec3(x, y, 0.0);
+    xx += x * x;
+    xy += x * y;
+    yy += y * y;
+  }
+  const double det = xx * yy - xy * xy;
+  const double trace = xx + yy;
+  const double inverse = det > kInLine * trace * trace ? 1.0 / det : 0.0;
+  for (Vec3& entry : row) {
+    const double x = inverse * (yy * entry.x() - xy * entry.y());
+    const double y = inverse * (xx * entry.y() - xy * entry.x());
+    entry = x * plane.east + y * plane.north;
+  }
+}
+
+}  // namespace
+
+GradientStencils gradient_stencils(parallel::Executor& exec, const Tiling& source,
+                                   const Overlaps& overlaps) {
+  GradientStencils stencils;
+  stencils.offsets.resize(at(source.size()) + 1);
+  stencils.offsets[0] = 0;
+  for (std::int64_t j = 0; j < source.size(); ++j) {
+    stencils.offsets[at(j) + 1] =
+        stencils.offsets[at(j)] + static_cast<std::int64_t>(source.neighbours(j).size());
+  }
+  stencils.neighbour.resize(at(stencils.offsets.back()));
+  stencils.coefficient.resize(at(stencils.offsets.back()));
+  parallel::for_index(exec, source.size(), kSourceGrain, [&](std::int64_t j) {
+    const auto neighbours = source.neighbours(j);
+    const std::size_t first = at(stencils.offsets[at(j)]);
+    std::copy(neighbours.begin(), neighbours.end(),
+              stencils.neighbour.begin() + static_cast<std::ptrdiff_t>(first));
+    fit(source, overlaps, j, {stencils.coefficient.data() + first, neighbours.size()});
+  });
+  return stencils;
+}
+
+Array<Vec3> gradients(parallel::Executor& exec, const GradientStencils& stencils,
+                      std::span<const double> field) {
+  Array<Vec3> result(field.size());
+  parallel::for_index(
+      exec, static_cast<std::int64_t>(field.size()), kSourceGrain, [&](std::int64_t j) {
+        Vec3 sum = Vec3::Zero();
+        for (auto k = stencils.offsets[at(j)]; k < stencils.offsets[at(j) + 1]; ++k) {
+          sum +=
+              (field[at(stencils.neighbour[at(k)])] - field[at(j)]) * stencils.coefficient[at(k)];
+        }
+        result[at(j)] = sum;
+      });
+  return result;
+}
+
+}  // namespace delos::remap

@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "remap/transfer.hpp"
+
+#include <algorithm>
+
+namespace delos::remap {
+namespace {
+
+constexpr std::int64_t kGrain = 4096;  // sources or targets of a few overlaps each, 0.1 ms
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+struct Range {
+  double low, high;
+  void add(double value) {
+    low = std::min(low, value);
+    high = std::max(high, value);
+  }
+  void add(const Range& other) {
+    low = std::min(low, other.low);
+    high = std::max(high, other.high);
+  }
+};
+
+struct Rows {
+  const Overlaps& overlaps;
+  std::int64_t begin(std::int64_t i) const { return overlaps.offsets[at(i)]; }
+  std::int64_t end(std::int64_t i) const { return overlaps.offsets[at(i) + 1]; }
+  // One source and all of it, not a part of one.
+  bool is_copy(std::int64_t i) const {
+    return end(i) - begin(i) == 1 && overlaps.middle[at(begin(i))] == Vec3(0, 0, 0);
+  }
+  Index source(std::int64_t k) const { return overlaps.source[at(k)]; }
+};
+
+// Range of each source and its neighbours.
+Array<Range> ranges(parallel::Executor& exec, const GradientStencils& stencils,
+                    std::span<const double> field) {
+  Array<Range> result(field.size());
+  parallel::for_index(exec, static_cast<std::int64_t>(field.size()), kGrain, [&](std::int64_t j) {
+    Range range{field[at(j)], field[at(j)]};
+    for (auto k = stencils.offsets[at(j)]; k < stencils.offsets[at(j) + 1]; ++k) {
+      range.add(field[at(stencils.neighbour[at(k)])]);
+    }
+    result[at(j)] = range;
+  });
+  return result;
+}
+
+// The largest part of the gradient that keeps a source's overlaps in its range.
+double part_in_range(const Overlaps& overlaps, std::span<const std::int64_t> entries,
+                     const Vec3& gradient, const Range& room) {
+  double part = 1.0;
+  for (const std::int64_t entry : entries) {
+    const double rise = gradient.dot(overlaps.middle[at(entry)]);
+    if (rise > room.high) part = std::min(part, room.high / rise);
+    if (rise < room.low) part = std::min(part, room.low / rise);
+  }
+  return part;
+}
+
+// Mean of r + (source's value - r) + gradient . middle over a target, r a value of the row: what
+// makes constants exact.
+double row_value(const Rows& rows, std::int64_t i, std::span<const double> field,
+                 std::span<const Vec3> gradients) {
+  const Overlaps& overlaps = rows.overlaps;
+  std::int64_t largest = rows.begin(i);
+  double area = 0.0;
+  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
+    if (overlaps.area_m2[at(k)] > overlaps.area_m2[at(largest)]) largest = k;
+    area += overlaps.area_m2[at(k)];
+  }
+  const double reference = field[at(rows.source(largest))];
+  double sum = 0.0;
+  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
+    const std::size_t source = at(rows.source(k));
+    double value = field[source] - reference;
+    if (!gradients.empty()) value += gradients[source].dot(overlaps.middle[at(k)]);
+    sum += overlaps.area_m2[at(k)] * value;
+  }
+  return reference + sum / area;
+}
+
+// Range of the sources that a target covers; to second order with those of their neighbours.
+template <class RangeOf>
+Range row_range(const Rows& rows, std::int64_t i, RangeOf&& range_of) {
+  Range range = range_of(rows.source(rows.begin(i)));
+  for (std::int64_t k = rows.begin(i) + 1; k < rows.end(i); ++k) {
+    range.add(range_of(rows.source(k)));
+  }
+  return range;
+}
+
+// Moves what clipping took from or gave to the targets into the room that others have.
+void assure_sum(parallel::Executor& exec, const Overlaps& overlaps, std::span<const Range> bounds,
+                std::span<double> target) {
+  const auto area = [&](std::int64_t i) { return overlaps.target_area_m2[at(i)]; };
+  const auto clipped = [&](std::int64_t i) {
+    return std::clamp(target[at(i)], bounds[at(i)].low, bounds[at(i)].high);
+  };
+  const double missing = parallel::sum(exec, overlaps.n_targets, kGrain, [&](std::int64_t i) {
+    return area(i) * (target[at(i)] - clipped(i));
+  });
+  const auto limit = [&](std::int64_t i) {
+    return missing > 0.0 ? bounds[at(i)].high : bounds[at(i)].low;
+  };
+  const double room = parallel::sum(exec, overlaps.n_targets, kGrain, [&](std::int64_t i) {
+    return area(i) * (limit(i) - clipped(i));
+  });
+  // The transfer of first order is in range with the same mass, so there is room for all of it.
+  const double part = room == 0.0 ? 0.0 : std::min(1.0, missing / room);
+  parallel::for_index(exec, overlaps.n_targets, kGrain, [&](std::int64_t i) {
+    const double value = clipped(i);
+    target[at(i)] =
+        std::clamp(value + part * (limit(i) - value), bounds[at(i)].low, bounds[at(i)].high);
+  });
+}
+
+struct Weight {
+  Index column;
+  double value;
+};
+
+// Weights of one target to second order, columns ascending and each once.
+void second_order_row(const Rows& rows, const GradientStencils& stencils, std::int64_t i,
+                      std::vector<Weight>& row) {
+  row.clear();
+  double area = 0.0;
+  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) area += rows.overlaps.area_m2[at(k)];
+  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
+    const double weight = rows.overlaps.area_m2[at(k)] / area;
+    double own = weight;
+    if (!rows.is_copy(i)) {
+      const Vec3& middle = rows.overlaps.middle[at(k)];
+      const std::int64_t source = rows.source(k);
+      for (auto l = stencils.offsets[at(source)]; l < stencils.offsets[at(source) + 1]; ++l) {
+        const double part = weight * middle.dot(stencils.coefficient[at(l)]);
+        own -= part;
+        row.push_back({stencils.neighbour[at(l)], part});
+      }
+    }
+    row.push_back({rows.source(k), own});
+  }
+  std::stable_sort(row.begin(), row.end(),
+                   [](const Weight& a, const Weight& b) { return a.column < b.column; });
+  std::size_t n = 0;
+  for (const Weight& weight : row) {
+    if (n > 0 && row[n - 1].column == weight.column) {
+      row[n - 1].value += weight.value;
+    } else {
+      row[n++] = weight;
+    }
+  }
+  row.resize(n);
+}
+
+}  // namespace
+
+Transfer::Transfer(Context& context, const Tiling& source, const Tiling& target)
+    : overlaps_(intersect(context, source, target)),
+      by_source_(transpose(overlaps_)),
+      stencils_(gradient_stencils(context.exec, source, overlaps_)) {}
+
+Weights Transfer::weights(parallel::Executor& exec, Order order) const {
+  if (order == Order::first) return first_order_weights(exec, overlaps_);
+  const Rows rows{overlaps_};
+  const std::int64_t n = overlaps_.n_targets;
+  std::vector<std::vector<Weight>> blocks(at((n + kGrain - 1) / kGrain));
+  Weights weights;
+  weights.n_columns = overlaps_.n_sources;
+  weights.offsets.resize(at(n) + 1);
+  weights.offsets[0] = 0;
+  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Weight> row;
+    auto& block = blocks[at(begin / kGrain)];
+    for (std::int64_t i = begin; i < end; ++i) {
+      second_order_row(rows, stencils_, i, row);
+      weights.offsets[at(i) + 1] = static_cast<std::int64_t>(row.size());
+      block.insert(block.end(), row.begin(), row.end());
+    }
+  });
+  for (std::int64_t i = 0; i < n; ++i) weights.offsets[at(i) + 1] += weights.offsets[at(i)];
+  weights.column.resize(at(weights.offsets.back()));
+  weights.value.resize(at(weights.offsets.back()));
+  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t) {
+    std::size_t k = at(weights.offsets[at(begin)]);
+    for (const Weight& weight : blocks[at(begin / kGrain)]) {
+      weights.column[k] = weight.column;
+      weights.value[k++] = weight.value;
+    }
+  });
+  return weights;
+}
+
+void Transfer::apply(parallel::Executor& exec, std::span<const double> source,
+                     std::span<double> target, const TransferOptions& options) const {
+  DELOS_CHECK(static_cast<std::int64_t>(source.size()) == overlaps_.n_sources &&
+                  static_cast<std::int64_t>(target.size()) == overlaps_.n_targets,
+              ErrorKind::input, "a transfer from ", overlaps_.n_sources, " to ",
+              overlaps_.n_targets, " values was given fields of ", source.size(), " and ",
+              target.size(), " values: the fields belong to other grids.");
+  const Rows rows{overlaps_};
+  const bool is_first = options.order == Order::first;
+  const bool is_limited = options.limiter != Limiter::none && !is_first;
+  const Array<Vec3> slopes = is_first ? Array<Vec3>{} : limited_gradients(exec, source, options);
+  const Array<Range> near = is_limited ? ranges(exec, stencils_, source) : Array<Range>{};
+  const auto range_of = [&](Index j) {
+    return is_first ? Range{source[at(j)], source[at(j)]} : near[at(j)];
+  };
+  const bool is_assured = is_limited && options.limiter == Limiter::assured_sum;
+  Array<Range> bounds(is_assured ? target.size() : 0);
+  parallel::for_index(exec, overlaps_.n_targets, kGrain, [&](std::int64_t i) {
+    const double value = row_value(rows, i, source, slopes);
+    target[at(i)] = value;
+    if (!is_first && !is_limited) return;
+    const Range range = rows.is_copy(i) ? Range{value, value} : row_range(rows, i, range_of);
+    if (is_assured) {
+      bounds[at(i)] = range;
+    } else {
+      target[at(i)] = std::clamp(value, range.low, range.high);  // of rounding
+    }
+  });
+  if (is_assured) assure_sum(exec, overlaps_, bounds, target);
+}
+
+Array<Vec3> Transfer::limited_gradients(parallel::Executor& exec, std::span<const double> source,
+                                        const TransferOptions& options) const {
+  Array<Vec3> slopes = gradients(exec, stencils_, source);
+  if (options.limiter != Limiter::gradient) return slopes;
+  const Array<Range> near = ranges(exec, stencils_, source);
+  parallel::for_index(exec, overlaps_.n_sources, kGrain, [&](std::int64_t j) {
+    const auto begin = at(by_source_.offsets[at(j)]), end = at(by_source_.offsets[at(j) + 1]);
+    const Range room{near[at(j)].low - source[at(j)], near[at(j)].high - source[at(j)]};
+    slopes[at(j)] *= part_in_range(overlaps_, {by_source_.entry.data() + begin, end - begin},
+                                   slopes[at(j)], room);
+  });
+  return slopes;
+}
+
+}  // namespace delos::remap

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Fields of one grid on another.
+#include <span>
+
+#include "core/progress.hpp"
+#include "remap/gradients.hpp"
+#include "remap/overlap.hpp"
+#include "remap/weights.hpp"
+
+namespace delos::remap {
+
+enum class Order {
+  first,  ///< constant in each source
+  second  ///< linear in each source
+};
+
+enum class Limiter {
+  none,
+  /// Gradients are shortened until no overlap's value leaves the range of the source and its
+  /// neighbours (Barth & Jespersen 1989, doi:10.2514/6.1989-366). Only the second order needs it.
+  gradient,
+  /// Values that leave the range of the sources that a target covers and of their neighbours are
+  /// clipped, and what that takes is given to the others in proportion to their room (clip and
+  /// assured sum: Bradley et al. 2019, doi:10.1137/18M1165414). Keeps the order at extremes too.
+  assured_sum
+};
+
+struct TransferOptions {
+  Order order = Order::second;
+  Limiter limiter = Limiter::gradient;
+};
+
+/// Everything that carries fields from one grid to another, computed once for many fields; needs
+/// the grids no longer.
+class Transfer {
+ public:
+  /// Advances the phase that the caller has begun by one for each target. Errors as intersect().
+  Transfer(Context& context, const Tiling& source, const Tiling& target);
+
+  const Overlaps& overlaps() const { return overlaps_; }
+  /// Linear transfer as a matrix; that of the second order reaches to the neighbours.
+  Weights weights(parallel::Executor& exec, Order order) const;
+  /// Mass kept within 1e-14, a constant and unchanged polygons to the last bit; with a limiter, and
+  /// to first order, no value outside the range of the sources that a target covers and, to second
+  /// order, of their neighbours. Values must be finite. The same bits for any number of threads.
+  /// Error(input) when a size does not fit.
+  void apply(parallel::Executor& exec, std::span<const double> source, std::span<double> target,
+             const TransferOptions& options = {}) const;
+
+ private:
+  Array<Vec3> limited_gradients(parallel::Executor& exec, std::span<const double> source,
+                                const TransferOptions& options) const;
+
+  Overlaps overlaps_;
+  Transposed by_source_;
+  GradientStencils stencils_;
+};
+
+}  // namespace delos::remap
