@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adapt/region.hpp"
+
+#include <algorithm>
+#include <span>
+
+#include "core/error.hpp"
+
+namespace delos {
+namespace {
+
+constexpr std::int64_t kCompareGrain = 8192;  // vertices a task: about a quarter millisecond
+
+std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+
+template <class Visit>
+void for_each_neighbour(const OldMesh& old, Index vertex, const Visit& visit) {
+  const Index first = old.at_vertex[at(vertex)];
+  Index tri = first;
+  do {
+    const Triangle& t = old.mesh.triangle(tri);
+    const auto k = at(next_corner(corner_at(t, vertex)));
+    visit(t.vertex[k]);
+    tri = t.neighbour[k];
+  } while (tri != first);
+}
+
+// How the two spacings compare at a vertex.
+enum Fit : char { kFits, kOffBlend, kOffTolerance };
+
+std::vector<char> compare_spacings(parallel::Executor& exec, const Mesh& mesh,
+                                   const SpacingField& spacing, const RegionOptions& options) {
+  std::vector<char> fit(mesh.vertices.size());
+  const auto is_within = [](double before, double now, double ratio) {
+    return before <= ratio * now && now <= ratio * before;
+  };
+  parallel::for_range(
+      exec, mesh.n_vertices(), kCompareGrain, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<Vertex> now(mesh.vertices.begin() + begin, mesh.vertices.begin() + end);
+        spacing.evaluate(now);
+        for (std::int64_t v = begin; v < end; ++v) {
+          const double before = mesh.vertices[static_cast<std::size_t>(v)].spacing;
+          const double after = now[static_cast<std::size_t>(v - begin)].spacing;
+          fit[static_cast<std::size_t>(v)] = is_within(before, after, options.blend) ? kFits
+                                             : is_within(before, after, options.tolerance)
+                                                 ? kOffBlend
+                                                 : kOffTolerance;
+        }
+      });
+  return fit;
+}
+
+// A growing set of vertices.
+class Growth {
+ public:
+  Growth(const OldMesh& old, std::vector<char> is_barred)
+      : old_(old), is_in_(std::move(is_barred)) {
+    for (char& mark : is_in_) mark = mark != 0 ? kBarred : kOut;
+  }
+
+  void add(Index vertex) {
+    if (is_in_[at(vertex)] != kOut) return;
+    is_in_[at(vertex)] = kIn;
+    members_.push_back(vertex);
+  }
+  // Adds the neighbours of the vertices added since the last call that `accepts` agrees to.
+  template <class Accepts>
+  void add_ring(const Accepts& accepts) {
+    const std::size_t end = members_.size();
+    for (; next_ < end; ++next_) {
+      for_each_neighbour(old_, members_[next_], [&](Index neighbour) {
+        if (accepts(neighbour)) add(neighbour);
+      });
+    }
+  }
+  bool has(Index vertex) const { return is_in_[at(vertex)] == kIn; }
+  const std::vector<Index>& members() const { return members_; }
+
+ private:
+  enum Mark : char { kOut, kIn, kBarred };
+  const OldMesh& old_;
+  std::vector<char> is_in_;
+  std::vector<Index> members_;  // in the order of their coming
+  std::size_t next_ = 0;        // the first whose neighbours have not been looked at
+};
+
+// Fixed vertices and their neighbours.
+std::vector<char> barred(const OldMesh& old, const std::vector<char>& is_fixed) {
+  std::vector<char> out(old.mesh.vertices.size(), 0);
+  for (std::size_t v = 0; v < is_fixed.size(); ++v) {
+    if (is_fixed[v] == 0) continue;
+    out[v] = 1;
+    for_each_neighbour(old, static_cast<Index>(v),
+                       [&](Index neighbour) { out[at(neighbour)] = 1; });
+  }
+  return out;
+}
+
+// The wanted vertices with the rings that are always added, less the parts that hold too few
+// wanted ones.
+std::vector<Index> wanted_parts(const OldMesh& old, const std::vector<char>& fit,
+                                const std::vector<char>& is_barred, const RegionOptions& options) {
+  Growth grown(old, is_barred);
+  for (Index v = 0; v < old.mesh.n_vertices(); ++v) {
+    if (fit[at(v)] == kOffTolerance) grown.add(v);
+  }
+  for (int ring = 0; ring < options.rings; ++ring) grown.add_ring([](Index) { return true; });
+  std::vector<char> is_seen(fit.size(), 0);
+  std::vector<Index> kept, part;
+  for (const Index seed : grown.members()) {
+    if (is_seen[at(seed)] != 0) continue;
+    part.assign(1, seed);
+    is_seen[at(seed)] = 1;
+    std::int64_t n_wanted = 0;
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      if (fit[at(part[i])] == kOffTolerance) ++n_wanted;
+      for_each_neighbour(old, part[i], [&](Index neighbour) {
+        if (!grown.has(neighbour) || is_seen[at(neighbour)] != 0) return;
+        is_seen[at(neighbour)] = 1;
+        part.push_back(neighbour);
+      });
+    }
+    if (n_wanted >= options.least_wanted) kept.insert(kept.end(), part.begin(), part.end());
+  }
+  return kept;
+}
+
+}  // namespace
+
+Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingField& spacing,
+                   const RegionOptions& options, const std::vector<char>& is_fixed) {
+  const std::vector<char> fit = compare_spacings(exec, old.mesh, spacing, options);
+  const std::vector<char> is_barred = barred(old, is_fixed);
+  Region out;
+  out.change.assign(fit.size(), Change::keep);
+  for (std::size_t v = 0; v < fit.size(); ++v) {
+    if (fit[v] != kOffTolerance) continue;
+    ++out.n_wanted;
+    if (is_barred[v] != 0) ++out.n_held;
+  }
+  Growth grown(old, is_barred);
+  for (const Index v : wanted_parts(old, fit, is_barred, options)) grown.add(v);
+  for (int ring = 0; ring < options.blend_rings; ++ring) {
+    grown.add_ring([&](Index v) { return fit[at(v)] != kFits; });
+  }
+  for (const Index v : grown.members()) out.change[at(v)] = Change::remove;
+  out.n_removed = static_cast<std::int64_t>(grown.members().size());
+
+  Growth moving(old, is_barred);
+  for (const Index v : grown.members()) moving.add(v);
+  for (int ring = 0; ring < options.moving_rings; ++ring) {
+    moving.add_ring([](Index) { return true; });
+  }
+  out.n_moving = static_cast<std::int64_t>(moving.members().size()) - out.n_removed;
+  for (const Index v : moving.members()) {
+    if (out.change[at(v)] == Change::keep) out.change[at(v)] = Change::move;
+  }
+  return out;
+}
+
+}  // namespace delos
