@@ -20,14 +20,14 @@ BELOW = {
     "sizing": ["triangulation", "geometry", "core"],
     "refine": ["sizing", "triangulation", "geometry", "core"],
     "relax": ["sizing", "triangulation", "geometry", "core"],
-    "adapt": ["relax", "refine", "sizing", "triangulation", "geometry", "core"],
     "dual": ["triangulation", "geometry", "core"],
     "partition": ["dual", "triangulation", "geometry", "core"],
     "metrics": ["dual", "sizing", "triangulation", "geometry", "core"],
     "remap": ["dual", "triangulation", "geometry", "core"],
+    "adapt": ["remap", "dual", "relax", "refine", "sizing", "triangulation", "geometry", "time", "core"],
     "io": ["dual", "sizing", "triangulation", "geometry", "core"],
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
-    "lifecycle": ["remap", "io", "metrics", "partition", "dual", "adapt", "relax", "refine", "sizing",
+    "lifecycle": ["adapt", "remap", "io", "metrics", "partition", "dual", "relax", "refine", "sizing",
                   "triangulation", "geometry", "time", "core"],
     "app": ["lifecycle", "pictures", "remap", "io", "metrics", "dual", "relax", "refine", "sizing",
             "triangulation", "geometry", "time", "core"],
@@ -38,7 +38,7 @@ INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "partition", "dual", "si
 # Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
 NO_LAYERS = ["cmake", "performance"]
 # Layers whose code is on the path from configuration to grid: no libm there.
-GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "adapt", "dual", "remap"]
+GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "dual", "remap", "adapt"]
 
 # Each third party's name, and the only files that may say it.
 HOMES = [
