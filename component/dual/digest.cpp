@@ -92,4 +92,9 @@ std::string digest(parallel::Executor& exec, const Grid& grid) {
   return all.hex();
 }
 
+std::string digest(const Grid& grid) {
+  parallel::Executor one(1);
+  return digest(one, grid);
+}
+
 }  // namespace delos

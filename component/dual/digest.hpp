@@ -13,5 +13,7 @@ namespace delos {
 /// of their declaration, and of the SHA-256 of every MiB of each array, so that all threads help;
 /// rows that a table shares with a former one count once.
 std::string digest(parallel::Executor& exec, const Grid& grid);
+/// The same by one thread.
+std::string digest(const Grid& grid);
 
 }  // namespace delos
