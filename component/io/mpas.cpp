@@ -10,6 +10,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/blocks.hpp"
 
 namespace delos {
 namespace {
@@ -40,8 +41,9 @@ std::size_t max_edges_on_cell(const Grid& grid) {
 /// fills all in the order of their definition, which is the order in the file.
 class MpasFile {
  public:
-  MpasFile(const std::string& path, const Grid& grid, const MpasOptions& options)
-      : grid_(grid), file_(path, options.format) {
+  MpasFile(parallel::Executor& exec, const std::string& path, const Grid& grid,
+           const MpasOptions& options)
+      : exec_(exec), grid_(grid), file_(path, options.format) {
     const double radius_m = grid.surface.scale_m();
     unit_m_ = options.on_unit_sphere ? radius_m : 1.0;
     radius_ = radius_m / unit_m_;
@@ -66,7 +68,7 @@ class MpasFile {
   void finish();
 
  private:
-  /// fill(row, values): the `width` values of one row, zero before.
+  /// fill(row, values): the `width` values of one row, zero before; rows side by side.
   template <class T>
   using Fill = std::function<void(std::int64_t, std::span<T>)>;
   template <class T>
@@ -121,6 +123,7 @@ class MpasFile {
   double length(double metres) const { return metres / unit_m_; }
   double area(double square_metres) const { return square_metres / (unit_m_ * unit_m_); }
 
+  parallel::Executor& exec_;
   const Grid& grid_;
   netcdf::Writer file_;
   std::vector<std::function<void()>> puts_;
@@ -133,18 +136,21 @@ class MpasFile {
 template <class T>
 void MpasFile::put_rows(netcdf::VariableId id, std::int64_t n, std::size_t width,
                         bool two_dimensional, const Fill<T>& fill) {
-  std::vector<T> block;
-  for (std::int64_t begin = 0; begin < n; begin += kBlockRows) {
-    const std::int64_t rows = std::min(kBlockRows, n - begin);
-    block.assign(at(rows) * width, T{0});
-    for (std::int64_t i = 0; i < rows; ++i) {
-      fill(begin + i, std::span<T>(block.data() + at(i) * width, width));
-    }
-    const std::array<std::size_t, 2> start = {at(begin), 0}, count = {at(rows), width};
+  const auto rows_of = [n](std::int64_t k) { return std::min(kBlockRows, n - k * kBlockRows); };
+  const auto convert = [&](std::vector<T>& block, std::int64_t k) {
+    block.assign(at(rows_of(k)) * width, T{0});
+    parallel::for_index(exec_, rows_of(k), kConvertGrain, [&](std::int64_t i) {
+      fill(k * kBlockRows + i, std::span<T>(block.data() + at(i) * width, width));
+    });
+  };
+  const auto put = [&](const std::vector<T>& block, std::int64_t k) {
+    const std::array<std::size_t, 2> start = {at(k * kBlockRows), 0},
+                                     count = {at(rows_of(k)), width};
     const std::size_t rank = two_dimensional ? 2 : 1;
     file_.put_block(id, std::span(start.data(), rank), std::span(count.data(), rank),
                     std::span<const T>(block));
-  }
+  };
+  stream_blocks<std::vector<T>>(exec_, (n + kBlockRows - 1) / kBlockRows, convert, put);
 }
 
 void MpasFile::add_attributes(const Provenance& provenance) {
@@ -327,8 +333,10 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
               ": MPAS files know spheres only, "
               "this grid is on an ellipsoid. Map it to the sphere first, or write UGRID.");
   AtomicFile target(path, size_bytes(grid.n_cells(), max_edges_on_cell(grid)));
+  parallel::Executor alone(1);
+  parallel::Executor& exec = options.exec != nullptr ? *options.exec : alone;
   target.fill([&](const std::string& temporary) {
-    MpasFile file(temporary, grid, options);
+    MpasFile file(exec, temporary, grid, options);
     file.add_attributes(provenance);
     file.add_places();
     file.add_cell_tables();

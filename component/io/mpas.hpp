@@ -4,6 +4,7 @@
 // MPAS knows spheres only: bring a grid of an ellipsoid to the sphere first (geometry/conformal).
 #include <string>
 
+#include "core/parallel.hpp"
 #include "dual/grid.hpp"
 #include "io/netcdf.hpp"
 #include "io/provenance.hpp"
@@ -15,6 +16,8 @@ struct MpasOptions {
   /// Lengths in units of the radius and sphere_radius = 1, as MPAS-Atmosphere's init wants; else
   /// metres.
   bool on_unit_sphere = false;
+  /// Converts while the file is written; null: all on the calling thread.
+  parallel::Executor* exec = nullptr;
 };
 
 /// Writes every variable of the MPAS mesh specification, ids from 1, 0 = none; atomically.

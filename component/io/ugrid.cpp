@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/blocks.hpp"
 
 namespace delos {
 namespace {
@@ -47,21 +48,26 @@ struct Topology {
   std::function<void(const std::function<void(Index, Index)>&)> for_each_edge;
   /// The spacing at edges [first, first + nodes.size() / 2), whose nodes (from 0) are given in
   /// pairs; null: not known.
-  std::function<std::vector<double>(std::size_t first, std::span<const Index> nodes)>
+  std::function<std::vector<double>(parallel::Executor& exec, std::size_t first,
+                                    std::span<const Index> nodes)>
       edge_spacing_m;
   ElementNames elements;
 };
 
 class UgridFile {
  public:
-  UgridFile(const std::string& path, const Topology& topology, const UgridOptions& options)
-      : topology_(topology), options_(options), file_(path, options.format) {}
+  UgridFile(parallel::Executor& exec, const std::string& path, const Topology& topology,
+            const UgridOptions& options)
+      : exec_(exec), topology_(topology), options_(options), file_(path, options.format) {}
 
   void define(const UgridSurface& surface, const Provenance& provenance);
   void put();
 
  private:
   struct Block;
+  struct Rows {
+    std::int64_t begin, end;
+  };
   VariableId define_coordinate(const std::string& name, const char* standard_name,
                                DimensionId dimension, const std::string& bounds);
   void define_area();
@@ -69,10 +75,12 @@ class UgridFile {
   void define_surface(const UgridSurface& surface);
   void put_nodes();
   void put_faces();
+  void convert_faces(Block& block, std::int64_t first, Rows rows) const;
   void put_block(const Block& block, std::int64_t begin, std::int64_t rows);
   void put_edges();
   std::string prefixed(const char* suffix) const { return topology_.name + "_" + suffix; }
 
+  parallel::Executor& exec_;
   const Topology& topology_;
   UgridOptions options_;
   netcdf::Writer file_;
@@ -191,50 +199,60 @@ void UgridFile::put() {
 void UgridFile::put_nodes() {
   node_lon_deg_.resize(at(topology_.n_nodes));
   node_lat_deg_.resize(at(topology_.n_nodes));
-  for (std::int64_t node = 0; node < topology_.n_nodes; ++node) {
+  parallel::for_index(exec_, topology_.n_nodes, kConvertGrain, [&](std::int64_t node) {
     const LonLat place = topology_.node(node);
     node_lon_deg_[at(node)] = lon_deg(place);
     node_lat_deg_[at(node)] = lat_deg(place);
-  }
+  });
   file_.put(node_lon_, std::span<const double>(node_lon_deg_));
   file_.put(node_lat_, std::span<const double>(node_lat_deg_));
 }
 
 /// What is said about a run of faces.
 struct UgridFile::Block {
-  Block(std::int64_t rows, std::size_t width)
-      : area_m2(at(rows)),
-        lon(at(rows)),
-        lat(at(rows)),
-        lon_bounds(at(rows) * width),
-        lat_bounds(at(rows) * width),
-        nodes(at(rows) * width) {}
+  void resize(std::size_t rows, std::size_t width) {
+    for (std::vector<double>* const column : {&area_m2, &lon, &lat}) column->resize(rows);
+    for (std::vector<double>* const table : {&lon_bounds, &lat_bounds}) table->resize(rows * width);
+    nodes.resize(rows * width);
+  }
   std::vector<double> area_m2, lon, lat, lon_bounds, lat_bounds;
   std::vector<std::int32_t> nodes;
 };
 
 void UgridFile::put_faces() {
+  const std::int64_t n = topology_.n_faces;
+  const auto rows_of = [n](std::int64_t k) { return std::min(kBlockRows, n - k * kBlockRows); };
+  const auto convert = [&](Block& block, std::int64_t k) {
+    block.resize(at(rows_of(k)), topology_.max_corners);
+    parallel::for_range(exec_, rows_of(k), kConvertGrain,
+                        [&](std::int64_t begin, std::int64_t end) {
+                          convert_faces(block, k * kBlockRows, {begin, end});
+                        });
+  };
+  const auto put = [&](const Block& block, std::int64_t k) {
+    put_block(block, k * kBlockRows, rows_of(k));
+  };
+  stream_blocks<Block>(exec_, (n + kBlockRows - 1) / kBlockRows, convert, put);
+}
+
+/// The rows of a block whose first row is the face `first`.
+void UgridFile::convert_faces(Block& block, std::int64_t first, Rows rows) const {
   const std::size_t width = topology_.max_corners;
   std::vector<Index> corner(width);
-  Block block(std::min(kBlockRows, topology_.n_faces), width);
-  for (std::int64_t begin = 0; begin < topology_.n_faces; begin += kBlockRows) {
-    const std::int64_t rows = std::min(kBlockRows, topology_.n_faces - begin);
-    for (std::int64_t row = 0; row < rows; ++row) {
-      const LonLat centre = topology_.face_centre(begin + row);
-      const std::size_t n_corners = topology_.corners(begin + row, corner);
-      block.area_m2[at(row)] = topology_.face_area_m2(begin + row);
-      block.lon[at(row)] = lon_deg(centre);
-      block.lat[at(row)] = lat_deg(centre);
-      for (std::size_t k = 0; k < width; ++k) {
-        const std::size_t slot = at(row) * width + k;
-        // Connectivity is padded with the fill value, bounds with the last corner (CF, CDO).
-        const auto node = at(corner[std::min(k, n_corners - 1)]);
-        block.nodes[slot] = k < n_corners ? static_cast<std::int32_t>(node) + kStartIndex : kFill;
-        block.lon_bounds[slot] = near_lon_deg(node_lon_deg_[node], block.lon[at(row)]);
-        block.lat_bounds[slot] = node_lat_deg_[node];
-      }
+  for (std::int64_t row = rows.begin; row < rows.end; ++row) {
+    const LonLat centre = topology_.face_centre(first + row);
+    const std::size_t n_corners = topology_.corners(first + row, corner);
+    block.area_m2[at(row)] = topology_.face_area_m2(first + row);
+    block.lon[at(row)] = lon_deg(centre);
+    block.lat[at(row)] = lat_deg(centre);
+    for (std::size_t k = 0; k < width; ++k) {
+      const std::size_t slot = at(row) * width + k;
+      // Connectivity is padded with the fill value, bounds with the last corner (CF, CDO).
+      const auto node = at(corner[std::min(k, n_corners - 1)]);
+      block.nodes[slot] = k < n_corners ? static_cast<std::int32_t>(node) + kStartIndex : kFill;
+      block.lon_bounds[slot] = near_lon_deg(node_lon_deg_[node], block.lon[at(row)]);
+      block.lat_bounds[slot] = node_lat_deg_[node];
     }
-    put_block(block, begin, rows);
   }
 }
 
@@ -264,7 +282,7 @@ void UgridFile::put_edges() {
   const auto flush = [&] {
     const std::array<std::size_t, 2> start = {written, 0}, count = {block.size() / 2, 2};
     if (topology_.edge_spacing_m) {
-      const std::vector<double> spacing_m = topology_.edge_spacing_m(written, block);
+      const std::vector<double> spacing_m = topology_.edge_spacing_m(exec_, written, block);
       file_.put_block(edge_spacing_, std::span(start.data(), 1), std::span(count.data(), 1),
                       std::span<const double>(spacing_m));
     }
@@ -296,8 +314,10 @@ std::uint64_t size_bytes(const Topology& topology, const UgridOptions& options) 
 void write_topology(const std::string& path, const Topology& topology, const UgridSurface& surface,
                     const Provenance& provenance, const UgridOptions& options) {
   AtomicFile target(path, size_bytes(topology, options));
+  parallel::Executor alone(1);
+  parallel::Executor& exec = options.exec != nullptr ? *options.exec : alone;
   target.fill([&](const std::string& temporary) {
-    UgridFile file(temporary, topology, options);
+    UgridFile file(exec, temporary, topology, options);
     file.define(surface, provenance);
     file.put();
   });
@@ -316,18 +336,22 @@ void for_each_edge_of(const Mesh& mesh, const std::function<void(Index, Index)>&
 }
 
 /// The field at the middles of the edges between these pairs of vertices, in metres.
-std::vector<double> spacing_at_middles(const Mesh& mesh, const UgridSurface& surface,
+std::vector<double> spacing_at_middles(parallel::Executor& exec, const Mesh& mesh,
+                                       const UgridSurface& surface,
                                        std::span<const Index> vertices) {
-  std::vector<Vertex> middles(vertices.size() / 2);
-  for (std::size_t i = 0; i < middles.size(); ++i) {
-    const Vec3 middle = surface.ellipsoid.project(mesh.position(vertices[2 * i]) +
-                                                  mesh.position(vertices[2 * i + 1]));
-    middles[i] = {middle.x(), middle.y(), middle.z(), 0.0};
-  }
-  surface.spacing->evaluate(middles);
-  std::vector<double> out(middles.size());
-  std::transform(middles.begin(), middles.end(), out.begin(), [&](const Vertex& middle) {
-    return middle.spacing * surface.ellipsoid.scale_m();
+  const auto n = static_cast<std::int64_t>(vertices.size() / 2);
+  std::vector<Vertex> middles(at(n));
+  std::vector<double> out(at(n));
+  parallel::for_range(exec, n, kConvertGrain, [&](std::int64_t begin, std::int64_t end) {
+    for (std::size_t i = at(begin); i < at(end); ++i) {
+      const Vec3 middle = surface.ellipsoid.project(mesh.position(vertices[2 * i]) +
+                                                    mesh.position(vertices[2 * i + 1]));
+      middles[i] = {middle.x(), middle.y(), middle.z(), 0.0};
+    }
+    surface.spacing->evaluate(std::span(middles).subspan(at(begin), at(end - begin)));
+    for (std::size_t i = at(begin); i < at(end); ++i) {
+      out[i] = middles[i].spacing * surface.ellipsoid.scale_m();
+    }
   });
   return out;
 }
@@ -365,8 +389,9 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Ugri
   topology.for_each_edge = [&](const auto& edge) { for_each_edge_of(mesh, edge); };
   topology.elements = {topology.name + "_faces", topology.name + "_nodes"};
   if (surface.spacing != nullptr) {
-    topology.edge_spacing_m = [&](std::size_t, std::span<const Index> nodes) {
-      return spacing_at_middles(mesh, surface, nodes);
+    topology.edge_spacing_m = [&](parallel::Executor& exec, std::size_t,
+                                  std::span<const Index> nodes) {
+      return spacing_at_middles(exec, mesh, surface, nodes);
     };
   }
   write_topology(path, topology, surface, provenance, options);
@@ -396,7 +421,8 @@ void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenan
   };
   topology.elements = {topology.name + "_nodes", topology.name + "_faces"};
   if (!grid.edge_spacing_m.empty()) {
-    topology.edge_spacing_m = [&](std::size_t first, std::span<const Index> nodes) {
+    topology.edge_spacing_m = [&](parallel::Executor&, std::size_t first,
+                                  std::span<const Index> nodes) {
       const auto begin = grid.edge_spacing_m.begin() + static_cast<std::ptrdiff_t>(first);
       return std::vector<double>(begin, begin + static_cast<std::ptrdiff_t>(nodes.size() / 2));
     };
@@ -409,7 +435,9 @@ std::uint64_t ugrid_triangles_size_bytes(std::int64_t n_vertices, const UgridOpt
   topology.n_nodes = n_vertices;
   topology.n_faces = 2 * n_vertices;
   topology.n_edges = 3 * n_vertices;
-  topology.edge_spacing_m = [](std::size_t, auto) { return std::vector<double>(); };
+  topology.edge_spacing_m = [](parallel::Executor&, std::size_t, auto) {
+    return std::vector<double>();
+  };
   return size_bytes(topology, options);
 }
 

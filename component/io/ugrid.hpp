@@ -19,6 +19,8 @@ struct UgridOptions {
   netcdf::Format format = netcdf::Format::cdf5;
   /// The corners of every face, which CDO needs: 48 bytes a triangle. Leave out for huge meshes.
   bool bounds = true;
+  /// Converts while the file is written; null: all on the calling thread.
+  parallel::Executor* exec = nullptr;
 };
 
 /// What a UGRID file is told about the surface that its longitudes and latitudes are on, and about

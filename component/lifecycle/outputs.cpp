@@ -114,7 +114,7 @@ void write_mpas_file(Context& context, const OutputContent& content, const std::
   DELOS_ASSERT(content.grid != nullptr);
   const OutputSettings& output = content.settings.output;
   const MpasOptions options{output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
-                            output.unit_sphere};
+                            output.unit_sphere, &context.exec};
   Provenance provenance = provenance_of(content);
   if (content.settings.surface.is_sphere()) {
     write_mpas(path, *content.grid, provenance, options);
@@ -124,11 +124,11 @@ void write_mpas_file(Context& context, const OutputContent& content, const std::
   }
 }
 
-UgridOptions ugrid_options(const OutputContent& content) {
+UgridOptions ugrid_options(Context& context, const OutputContent& content) {
   // CDO's bounds double the file, and no such tool opens grids of this size.
   constexpr Index kMaxVerticesWithBounds = 50'000'000;
   return {content.settings.output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
-          content.mesh.n_vertices() <= kMaxVerticesWithBounds};
+          content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
 }
 
 /// Folders made on the way to `directory`, removed again unless kept.
@@ -165,7 +165,8 @@ class OutputWriter {
   void write_grids() {
     const OutputSettings& output = content_.settings.output;
     const std::int64_t n_cells = content_.mesh.n_vertices();
-    const std::uint64_t ugrid_bytes = ugrid_triangles_size_bytes(n_cells, ugrid_options(content_));
+    const std::uint64_t ugrid_bytes =
+        ugrid_triangles_size_bytes(n_cells, ugrid_options(context_, content_));
     if (output.mpas) write_grid(FileKind::mpas, "mpas.nc", mpas_size_bytes(n_cells));
     if (output.ugrid_triangles) {
       write_grid(FileKind::ugrid_triangles, "ugrid_triangles.nc", ugrid_bytes);
@@ -257,11 +258,12 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
     case FileKind::ugrid_triangles:
       write_ugrid_triangles(path, content.mesh,
                             {settings.surface, settings.latitude, &content.spacing},
-                            provenance_of(content), ugrid_options(content));
+                            provenance_of(content), ugrid_options(context, content));
       return;
     case FileKind::ugrid_cells:
       DELOS_ASSERT(content.grid != nullptr);
-      write_ugrid_cells(path, *content.grid, provenance_of(content), ugrid_options(content));
+      write_ugrid_cells(path, *content.grid, provenance_of(content),
+                        ugrid_options(context, content));
       return;
   }
 }

@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "io/ugrid.hpp"
 #include "support/expect_error.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/sample_grids.hpp"
@@ -224,6 +225,29 @@ TEST_CASE("a derived file names its parents") {
   CHECK(Reader(folder.file("b.nc")).text_attribute("", "parent_id") == first);
   CHECK(delos::mpas_parent_id(folder.file("b.nc")) ==
         delos::file_id(provenance.digest) + "\n" + first);
+}
+
+TEST_CASE("files of several blocks have the same bytes from any number of threads") {
+  const TemporaryFolder folder;
+  const delos::Mesh mesh = delos::samples::bisected_icosahedron(delos::Ellipsoid(), 6);
+  const Grid grid = delos::samples::grid_of(delos::Ellipsoid(), mesh);
+  const delos::SpacingField spacing = delos::SpacingField::constant(delos::Ellipsoid(), 100e3);
+  const auto written = [&](delos::parallel::Executor* exec) {
+    delos::write_mpas(folder.file("a.nc"), grid, {}, {Format::cdf5, false, exec});
+    delos::write_ugrid_cells(folder.file("b.nc"), grid, {}, {Format::cdf5, true, exec});
+    delos::write_ugrid_triangles(folder.file("c.nc"), mesh, {delos::Ellipsoid(), {}, &spacing}, {},
+                                 {Format::cdf5, true, exec});
+    std::string digests;
+    for (const char* name : {"a.nc", "b.nc", "c.nc"}) {
+      digests += delos::describe_input(folder.file(name)).sha256;
+    }
+    return digests;
+  };
+  const std::string alone = written(nullptr);
+  for (const int threads : {2, 5}) {
+    delos::parallel::Executor exec(threads);
+    CHECK(written(&exec) == alone);
+  }
 }
 
 TEST_CASE("the same grid gives the same bytes") {
