@@ -86,6 +86,7 @@ class Reader {
   /// Whole variable, converted to the type asked for; a value that does not fit is an error.
   std::vector<double> read_double(const std::string& variable) const;
   std::vector<std::int32_t> read_int32(const std::string& variable) const;
+  std::vector<std::int64_t> read_int64(const std::string& variable) const;
   /// All characters of a text variable.
   std::string read_text(const std::string& variable) const;
 
@@ -99,6 +100,8 @@ class Reader {
  private:
   void read_contents();
   int attribute_owner(const std::string& variable) const;
+  template <class T>
+  std::vector<T> read_whole(const std::string& variable) const;
   template <class T>
   void read_any(const std::string& variable, std::span<const std::size_t> start,
                 std::span<const std::size_t> count, std::span<T> out) const;

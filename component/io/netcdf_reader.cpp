@@ -126,6 +126,10 @@ int get_block(int h, int v, const std::size_t* start, const std::size_t* count, 
 int get_block(int h, int v, const std::size_t* start, const std::size_t* count, std::int32_t* out) {
   return nc_get_vara_int(h, v, start, count, out);
 }
+int get_block(int h, int v, const std::size_t* start, const std::size_t* count, std::int64_t* out) {
+  static_assert(sizeof(long long) == sizeof(std::int64_t));
+  return nc_get_vara_longlong(h, v, start, count, reinterpret_cast<long long*>(out));
+}
 
 }  // namespace
 
@@ -272,24 +276,25 @@ std::optional<Type> Reader::attribute_type(const std::string& variable,
   return type_of(code);
 }
 
-std::vector<double> Reader::read_double(const std::string& variable) const {
+template <class T>
+std::vector<T> Reader::read_whole(const std::string& variable) const {
   const Variable& info = this->variable(variable);
-  auto values = allocate<double>(path_, info);
+  auto values = allocate<T>(path_, info);
   const std::vector<std::size_t> start(info.rank(), 0);
   std::vector<std::size_t> count;
   for (const Dimension& dimension : info.dimensions) count.push_back(dimension.length);
-  read(variable, start, count, std::span<double>(values));
+  read_any(variable, start, count, std::span<T>(values));
   return values;
 }
 
+std::vector<double> Reader::read_double(const std::string& variable) const {
+  return read_whole<double>(variable);
+}
 std::vector<std::int32_t> Reader::read_int32(const std::string& variable) const {
-  const Variable& info = this->variable(variable);
-  auto values = allocate<std::int32_t>(path_, info);
-  const std::vector<std::size_t> start(info.rank(), 0);
-  std::vector<std::size_t> count;
-  for (const Dimension& dimension : info.dimensions) count.push_back(dimension.length);
-  read(variable, start, count, std::span<std::int32_t>(values));
-  return values;
+  return read_whole<std::int32_t>(variable);
+}
+std::vector<std::int64_t> Reader::read_int64(const std::string& variable) const {
+  return read_whole<std::int64_t>(variable);
 }
 
 std::string Reader::read_text(const std::string& variable) const {

@@ -7,6 +7,7 @@
 
 #include "core/error.hpp"
 #include "core/types.hpp"
+#include "lifecycle/restart.hpp"
 #include "time/iso8601.hpp"
 
 namespace delos {
@@ -107,7 +108,7 @@ const char* expected_call(Stage stage) {
     case Stage::finalized:
       return "initialize(advertise)";
     case Stage::advertised:
-      return "initialize(realize)";
+      return "initialize(realize) or read_restart";
     case Stage::realized:
     case Stage::running:
       return "run or finalize";
@@ -166,8 +167,12 @@ void Component::realize() {
   parallel::Executor exec(options_.threads > 0 ? options_.threads : settings_.threads);
   Monitor monitor(options_.on_progress, options_.on_log, options_.cancel);
   Context context{exec, monitor};
-  auto product = std::make_shared<const Product>(generate(context, settings_, {}));
-  const std::int64_t number = last_generation_ + 1;
+  put_in_place(std::make_shared<const Product>(generate(context, settings_, {})),
+               last_generation_ + 1);
+  stage_ = Stage::realized;
+}
+
+void Component::put_in_place(std::shared_ptr<const Product> product, std::int64_t number) {
   const auto values = exported(product, number);
 
   // Nothing throws from here on.
@@ -176,7 +181,38 @@ void Component::realize() {
   attach_exports(*exports_, values, number);
   product_ = std::move(product);
   last_generation_ = number;
+}
+
+void Component::write_restart(const std::string& path, const Clock& host) const {
+  if (stage_ != Stage::realized && stage_ != Stage::running) refuse("write_restart");
+  if (clock_) {
+    const Time &mine = clock_->current(), &hosts = host.current();
+    DELOS_CHECK(mine.calendar() == hosts.calendar() && mine == hosts, ErrorKind::state,
+                "write_restart was called with a clock at ", iso_text(hosts), " (",
+                to_string(hosts.calendar()), "), but the last run ended at ", iso_text(mine), " (",
+                to_string(mine.calendar()), "): advance the clock before");
+  }
+  delos::write_restart(path, {product_, last_generation_, host, clock_});
+}
+
+Clock Component::read_restart(const std::string& path, const Clock& host) {
+  if (stage_ != Stage::advertised) refuse("read_restart");
+  parallel::Executor exec(options_.threads > 0 ? options_.threads : settings_.threads);
+  Monitor monitor(options_.on_progress, options_.on_log, options_.cancel);
+  Context context{exec, monitor};
+  Restart state = delos::read_restart(context, settings_, path);
+  const Calendar theirs = state.host.start().calendar(), mine = host.start().calendar();
+  DELOS_CHECK(theirs == mine, ErrorKind::config, "the restart file ", path, " counts in ",
+              to_string(theirs), ", the clock given in ", to_string(mine),
+              ": give a clock of that calendar.");
+  put_in_place(std::move(state.product), state.generation);
   stage_ = Stage::realized;
+  if (state.component) {
+    for (const auto& item : exports_->items()) item->stamp(state.component->current());
+    stage_ = Stage::running;
+  }
+  clock_ = std::move(state.component);
+  return std::move(state.host);
 }
 
 void Component::run(const Time& from, const Time& until) {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "core/progress.hpp"
 #include "lifecycle/fields.hpp"
@@ -44,6 +45,13 @@ class Component {
   /// From one time to a later one: the component's clock goes there and exports are stamped with
   /// it. The first run starts the clock; a later `from` other than its time is an Error(state).
   void run(const Time& from, const Time& until);
+  /// The grid, both clocks and the generation into one file, after realize. Error(output) naming
+  /// the path, Error(state) when the host's clock does not stand where the last run ended.
+  void write_restart(const std::string& path, const Clock& host) const;
+  /// In the place of realize: the component goes on from the file as the one that wrote it, the
+  /// exports stamped as there. Gives the host's clock of the file; Error(input) as
+  /// delos::read_restart, Error(config) when it counts another calendar than `host`.
+  Clock read_restart(const std::string& path, const Clock& host);
   /// Gives the grid back; generations go on counting when the component starts again.
   void finalize();
 
@@ -61,6 +69,7 @@ class Component {
 
  private:
   [[noreturn]] void refuse(const char* call) const;
+  void put_in_place(std::shared_ptr<const Product> product, std::int64_t number);
   void release_fields() noexcept;
 
   Settings settings_;

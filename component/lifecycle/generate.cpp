@@ -159,6 +159,30 @@ void judge(Context& context, Product& product, const std::string& directory) {
   throw Error(ErrorKind::quality, missed + rejected_report(product, directory));
 }
 
+Product begin(const Context& context, const Settings& settings) {
+  Product product;
+  product.settings = settings;
+  product.report.title = settings.title.empty() ? settings.output.name : settings.title;
+  product.report.version = library_version();
+  product.report.surface = settings.surface;
+  product.report.n_threads = context.exec.n_threads();
+  return product;
+}
+
+/// What follows from mesh and spacing.
+void finish(Context& context, Product& product, const GenerateScope& scope) {
+  Report& report = product.report;
+  report.digest = digest(product.mesh);
+  {
+    const Phase phase(context.monitor, "quality", product.mesh.n_vertices());
+    report.quality = measure_quality(context, product.settings.surface, product.spacing,
+                                     product.mesh, product.settings.latitude);
+  }
+  judge(context, product, scope.directory);
+  if (scope.with_dual) build_dual(context, product);
+  report.phases = context.monitor.phases();
+}
+
 }  // namespace
 
 OutputContent output_content(const Product& product, const std::string& command) {
@@ -173,14 +197,8 @@ OutputContent output_content(const Product& product, const std::string& command)
 
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope) {
   if (!scope.directory.empty()) check_output_folder(scope.directory, 0.0);
-  Product product;
-  product.settings = settings;
+  Product product = begin(context, settings);
   Report& report = product.report;
-  report.title = settings.title.empty() ? settings.output.name : settings.title;
-  report.version = library_version();
-  report.surface = settings.surface;
-  report.n_threads = context.exec.n_threads();
-
   const Inputs inputs = read_inputs(context, settings);
   describe_inputs(settings, inputs, report);
   product.elevation_m = inputs.recipe.elevation_m;
@@ -192,15 +210,19 @@ Product generate(Context& context, const Settings& settings, const GenerateScope
   check_count(settings, product.mesh, report.expected_vertices);
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = sized.field;
-  report.digest = digest(product.mesh);
-  {
-    const Phase phase(context.monitor, "quality", product.mesh.n_vertices());
-    report.quality =
-        measure_quality(context, settings.surface, sized.field, product.mesh, settings.latitude);
-  }
-  judge(context, product, scope.directory);
-  if (scope.with_dual) build_dual(context, product);
-  report.phases = context.monitor.phases();
+  finish(context, product, scope);
+  return product;
+}
+
+Product resume(Context& context, const Settings& settings, SavedProduct saved) {
+  Product product = begin(context, settings);
+  add_report_notes(saved.report_notes, product.report);
+  product.report.expected_vertices =
+      expected_vertices(context.exec, settings.surface, saved.spacing);
+  product.mesh = std::move(saved.mesh);
+  product.spacing_table_m = std::move(saved.spacing_table_m);
+  product.spacing = std::move(saved.spacing);
+  finish(context, product, {});
   return product;
 }
 

@@ -39,6 +39,18 @@ struct GenerateScope {
 /// settings.output.report is on, its report (write_rejected_report).
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
 
+/// What a restart file keeps of a product: all that takes long to make, or can't be made again.
+struct SavedProduct {
+  Mesh mesh;
+  SpacingField spacing;
+  std::optional<LatLonField> spacing_table_m;
+  std::string report_notes;
+};
+
+/// The product that was saved, to the last bit of its arrays and its report, of which only threads
+/// and phases are this call's: phases quality and dual. No input is read.
+Product resume(Context& context, const Settings& settings, SavedProduct saved);
+
 /// What goes into the product's files; refers to the product. `command` is for their history.
 OutputContent output_content(const Product& product, const std::string& command);
 

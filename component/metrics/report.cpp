@@ -284,6 +284,13 @@ void add_times(const std::vector<PhaseTime>& phases, std::vector<std::string>& l
   lines.push_back(row);
 }
 
+ReportValue plain_value(const Json& json) {
+  if (json.is_boolean()) return json.get<bool>();
+  if (json.is_number_integer()) return json.get<std::int64_t>();
+  if (json.is_number()) return json.get<double>();
+  return json.get<std::string>();
+}
+
 }  // namespace
 
 std::string report_json(const Report& report) {
@@ -312,6 +319,40 @@ std::string report_json(const Report& report) {
   out["threads"] = report.n_threads;
   out["phases"] = phases_json(report.phases);
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string report_notes(const Report& report) {
+  // Arrays of pairs: a name may come twice.
+  Json sections = Json::array(), inputs = Json::array();
+  for (const ReportSection& section : report.sections) {
+    if (section.name == "dual") continue;
+    Json values = Json::array();
+    for (const auto& [key, value] : section.values) {
+      std::visit([&, name = key](const auto& plain) { values.push_back({name, plain}); }, value);
+    }
+    sections.push_back({section.name, values});
+  }
+  for (const ReportInput& input : report.inputs) inputs.push_back({input.path, input.sha256});
+  return Json{{"sections", sections}, {"inputs", inputs}}.dump(-1, ' ', false,
+                                                               Json::error_handler_t::replace);
+}
+
+void add_report_notes(const std::string& notes, Report& report) {
+  try {
+    const Json all = Json::parse(notes);
+    for (const Json& section : all.at("sections")) {
+      ReportSection out{section.at(0), {}};
+      for (const Json& value : section.at(1)) {
+        out.values.emplace_back(value.at(0), plain_value(value.at(1)));
+      }
+      report.sections.push_back(std::move(out));
+    }
+    for (const Json& input : all.at("inputs")) {
+      report.inputs.push_back({input.at(0), input.at(1)});
+    }
+  } catch (const Json::exception& error) {
+    throw Error(ErrorKind::input, text("the notes of a report can't be read: ", error.what()));
+  }
 }
 
 std::string report_text(const Report& report) {

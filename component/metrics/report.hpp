@@ -45,6 +45,12 @@ struct Report {
 /// number is not finite.
 std::string report_json(const Report& report);
 
+/// What of a report can't be measured again from its grid, for restart files: the sections but
+/// "dual", and the inputs. JSON.
+std::string report_notes(const Report& report);
+/// The way back: adds them to the report. Error(input) for another text.
+void add_report_notes(const std::string& notes, Report& report);
+
 /// At most 24 lines of at most 80 columns, each ended by a newline.
 std::string report_text(const Report& report);
 

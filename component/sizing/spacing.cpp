@@ -131,7 +131,7 @@ struct SpacingField::Table {
 
 namespace {
 
-void check_table(parallel::Executor& exec, const LatLonField& field) {
+void check_table(parallel::Executor& exec, const LatLonField& field, const char* unit) {
   DELOS_CHECK(field.n_lat_cells >= 1 && field.n_lon >= 1 &&
                   field.values.size() == static_cast<std::size_t>(field.n_rows()) *
                                              static_cast<std::size_t>(field.n_lon),
@@ -139,21 +139,20 @@ void check_table(parallel::Executor& exec, const LatLonField& field) {
               " nodes holds ", field.values.size(), " values: give one value a node");
   const std::size_t node = first_not_positive(exec, field);
   DELOS_CHECK(node == field.values.size(), ErrorKind::input, "spacing is ", field.values[node],
-              " m at ", place_of(field, node),
+              unit, " at ", place_of(field, node),
               ": it must be finite and > 0; clamp it or fill the missing values");
 }
 
 /// A row of the finished table, with the first column again at its end; the least and the greatest
 /// of it.
-std::pair<double, double> fill_row(const LatLonField& spacing_m, Index row, double scale_m,
-                                   double* to) {
-  const Index n = spacing_m.n_lon;
-  const double* from = spacing_m.values.data() + spacing_m.at(row, 0);
-  if (row == 0 || row == spacing_m.n_lat_cells) {
+std::pair<double, double> fill_row(const LatLonField& nodes, Index row, double unit, double* to) {
+  const Index n = nodes.n_lon;
+  const double* from = nodes.values.data() + nodes.at(row, 0);
+  if (row == 0 || row == nodes.n_lat_cells) {
     // One point, one value: the finest of a pole's row counts for the pole.
-    std::fill_n(to, n, *std::min_element(from, from + n) / scale_m);
+    std::fill_n(to, n, *std::min_element(from, from + n) / unit);
   } else {
-    for (Index i = 0; i < n; ++i) to[i] = from[i] / scale_m;
+    for (Index i = 0; i < n; ++i) to[i] = from[i] / unit;
   }
   to[n] = to[0];
   std::pair<double, double> bounds{to[0], to[0]};
@@ -183,15 +182,38 @@ SpacingField SpacingField::table(const Ellipsoid& surface, LatitudeKind latitude
 
 SpacingField SpacingField::table(parallel::Executor& exec, const Ellipsoid& surface,
                                  LatitudeKind latitude, const LatLonField& spacing_m) {
-  check_table(exec, spacing_m);
+  check_table(exec, spacing_m, " m");
+  return make_table(exec, surface, latitude, spacing_m, surface.scale_m());
+}
+
+SpacingField SpacingField::of_scaled(const Ellipsoid& surface, LatitudeKind latitude,
+                                     const LatLonField& spacing) {
+  if (spacing.n_lon > 0) {
+    parallel::Executor exec(1);
+    check_table(exec, spacing, " radii");
+    return make_table(exec, surface, latitude, spacing, 1.0);
+  }
+  DELOS_CHECK(
+      spacing.values.size() == 1 && std::isfinite(spacing.values[0]) && spacing.values[0] > 0.0,
+      ErrorKind::input, "a constant spacing of ", spacing.values.size(),
+      " values: give one, finite and > 0");
+  SpacingField field;
+  field.scale_m_ = surface.scale_m();
+  field.min_ = field.max_ = spacing.values[0];
+  return field;
+}
+
+SpacingField SpacingField::make_table(parallel::Executor& exec, const Ellipsoid& surface,
+                                      LatitudeKind latitude, const LatLonField& nodes,
+                                      double unit) {
   auto table = std::make_shared<Table>();
-  const Index n_lon = spacing_m.n_lon;
+  const Index n_lon = nodes.n_lon;
   table->latitude = latitude;
-  table->n_rows = spacing_m.n_rows();
+  table->n_rows = nodes.n_rows();
   table->n_columns = n_lon + 1;
   table->lookup = {direction_weight(surface, latitude), n_lon / (2.0 * kPi),
-                   spacing_m.n_lat_cells / kPi, static_cast<double>(n_lon),
-                   static_cast<double>(spacing_m.n_lat_cells)};
+                   nodes.n_lat_cells / kPi, static_cast<double>(n_lon),
+                   static_cast<double>(nodes.n_lat_cells)};
   table->values.resize(static_cast<std::size_t>(table->n_rows) *
                        static_cast<std::size_t>(table->n_columns));
 
@@ -199,9 +221,8 @@ SpacingField SpacingField::table(parallel::Executor& exec, const Ellipsoid& surf
   field.scale_m_ = surface.scale_m();
   std::vector<std::pair<double, double>> bounds(static_cast<std::size_t>(table->n_rows));
   parallel::for_index(exec, table->n_rows, kRowGrain, [&](std::int64_t row) {
-    bounds[static_cast<std::size_t>(row)] =
-        fill_row(spacing_m, static_cast<Index>(row), field.scale_m_,
-                 table->values.data() + row * table->n_columns);
+    bounds[static_cast<std::size_t>(row)] = fill_row(nodes, static_cast<Index>(row), unit,
+                                                     table->values.data() + row * table->n_columns);
   });
   field.min_ = std::numeric_limits<double>::infinity();
   for (const auto& [least, greatest] : bounds) {
@@ -258,17 +279,31 @@ LatitudeKind SpacingField::latitude() const {
 }
 
 LatLonField SpacingField::to_table() const {
+  if (table_) return nodes(scale_m_);
   LatLonField field;
-  field.n_lat_cells = table_ ? table_->n_rows - 1 : 180;
-  field.n_lon = table_ ? table_->n_columns - 1 : 360;
+  field.n_lat_cells = 180;
+  field.n_lon = 360;
   field.values.assign(
       static_cast<std::size_t>(field.n_rows()) * static_cast<std::size_t>(field.n_lon),
       min_ * scale_m_);
-  if (!table_) return field;
+  return field;
+}
+
+LatLonField SpacingField::scaled() const {
+  if (table_) return nodes(1.0);
+  return {0, 0, {min_}};
+}
+
+LatLonField SpacingField::nodes(double unit) const {
+  LatLonField field;
+  field.n_lat_cells = table_->n_rows - 1;
+  field.n_lon = table_->n_columns - 1;
+  field.values.resize(static_cast<std::size_t>(field.n_rows()) *
+                      static_cast<std::size_t>(field.n_lon));
   for (Index row = 0; row < field.n_rows(); ++row) {
     const double* from = table_->values.data() + static_cast<std::size_t>(row) * table_->n_columns;
     for (Index column = 0; column < field.n_lon; ++column) {
-      field.values[field.at(row, column)] = from[column] * scale_m_;
+      field.values[field.at(row, column)] = from[column] * unit;
     }
   }
   return field;

@@ -45,6 +45,10 @@ class SpacingField {
   static SpacingField table(const Ellipsoid& surface, LatitudeKind latitude,
                             const LatLonField& spacing_m);
 
+  /// What scaled() gave, as the same field to the last bit. Error(input) as table().
+  static SpacingField of_scaled(const Ellipsoid& surface, LatitudeKind latitude,
+                                const LatLonField& spacing);
+
   /// Scaled spacing at a scaled surface point.
   double at(double x, double y, double z) const;
   /// The same for many: vertices[i].spacing = at(vertices[i]); several times faster per point.
@@ -57,11 +61,17 @@ class SpacingField {
   double max() const { return max_; }
   /// The table back in metres, for files and pictures; of a constant, one of 1 degree.
   LatLonField to_table() const;
+  /// All of it, scaled, for restart files: the table, or the one value of a constant (n_lon = 0).
+  LatLonField scaled() const;
   LatitudeKind latitude() const;
 
  private:
   friend double expected_vertices(parallel::Executor&, const Ellipsoid&, const SpacingField&);
   struct Table;
+  static SpacingField make_table(parallel::Executor& exec, const Ellipsoid& surface,
+                                 LatitudeKind latitude, const LatLonField& nodes, double unit);
+  LatLonField nodes(double unit) const;
+
   std::shared_ptr<const Table> table_;
   double min_ = 0.0, max_ = 0.0;
   double scale_m_ = 1.0;

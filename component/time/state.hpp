@@ -3,6 +3,7 @@
 // Clocks and alarms as plain integers, for restart files: nothing is rounded, and a clock restored
 // from its state goes on as the first one would have.
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "time/time.hpp"
@@ -54,6 +55,11 @@ struct ClockState {
   std::vector<AlarmState> alarms;  ///< by id
   friend bool operator==(const ClockState&, const ClockState&) = default;
 };
+
+/// Its members one after the other, as they are declared, alarm by alarm at the end.
+std::vector<std::int64_t> integers_of(const ClockState& state);
+/// The way back; Error(input) for a number of integers that no clock has.
+ClockState clock_state_of(std::span<const std::int64_t> integers);
 
 TimeState state_of(const Time& time);
 IntervalState state_of(const TimeInterval& interval);

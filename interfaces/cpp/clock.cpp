@@ -24,23 +24,26 @@ std::shared_ptr<ClockImpl> made(const ClockOptions& options) {
   });
 }
 
+/// A clock that was read from a restart file may have fewer alarms than handles know of.
+delos::Alarm& alarm_of(ClockImpl& clock, int id) {
+  return *translated([&] { return &clock.clock.alarm(id); });
+}
+
 }  // namespace
 
 Alarm::Alarm(std::shared_ptr<ClockImpl> clock, int id) : clock_(std::move(clock)), id_(id) {}
-bool Alarm::is_ringing() const { return clock_->clock.alarm(id_).is_ringing(); }
-bool Alarm::was_ringing() const { return clock_->clock.alarm(id_).was_ringing(); }
-bool Alarm::is_enabled() const { return clock_->clock.alarm(id_).is_enabled(); }
-bool Alarm::is_sticky() const { return clock_->clock.alarm(id_).is_sticky(); }
-Time Alarm::ring_time() const { return TimeAccess::made(clock_->clock.alarm(id_).ring_time()); }
-TimeInterval Alarm::interval() const {
-  return TimeAccess::made(clock_->clock.alarm(id_).interval());
-}
-void Alarm::enable() { clock_->clock.alarm(id_).enable(); }
-void Alarm::disable() { clock_->clock.alarm(id_).disable(); }
+bool Alarm::is_ringing() const { return alarm_of(*clock_, id_).is_ringing(); }
+bool Alarm::was_ringing() const { return alarm_of(*clock_, id_).was_ringing(); }
+bool Alarm::is_enabled() const { return alarm_of(*clock_, id_).is_enabled(); }
+bool Alarm::is_sticky() const { return alarm_of(*clock_, id_).is_sticky(); }
+Time Alarm::ring_time() const { return TimeAccess::made(alarm_of(*clock_, id_).ring_time()); }
+TimeInterval Alarm::interval() const { return TimeAccess::made(alarm_of(*clock_, id_).interval()); }
+void Alarm::enable() { alarm_of(*clock_, id_).enable(); }
+void Alarm::disable() { alarm_of(*clock_, id_).disable(); }
 void Alarm::ringer_on() {
-  translated([&] { clock_->clock.alarm(id_).ringer_on(clock_->clock.current()); });
+  translated([&] { alarm_of(*clock_, id_).ringer_on(clock_->clock.current()); });
 }
-void Alarm::ringer_off() { clock_->clock.alarm(id_).ringer_off(); }
+void Alarm::ringer_off() { alarm_of(*clock_, id_).ringer_off(); }
 
 Clock::Clock(const ClockOptions& options) : impl_(made(options)) {}
 Clock::Clock(const Clock& other) : impl_(std::make_shared<ClockImpl>(*other.impl_)) {}

@@ -12,6 +12,7 @@ struct ClockImpl {
 
 struct ClockAccess {
   static const delos::Clock& engine(const Clock& clock) { return clock.impl_->clock; }
+  static delos::Clock& engine(Clock& clock) { return clock.impl_->clock; }
 };
 
 }  // namespace delos::api

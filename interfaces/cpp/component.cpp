@@ -102,6 +102,17 @@ void Component::run(const State& import_state, const State& export_state, const 
   });
 }
 
+void Component::write_restart(const std::string& path, const Clock& clock) const {
+  translated([&] { impl_->component.write_restart(path, ClockAccess::engine(clock)); });
+}
+
+void Component::read_restart(const std::string& path, Clock& clock) {
+  translated([&] {
+    delos::Clock& own = ClockAccess::engine(clock);
+    own = impl_->component.read_restart(path, own);
+  });
+}
+
 void Component::finalize() {
   translated([&] {
     impl_->component.finalize();

@@ -20,6 +20,8 @@
 #include <omp.h>
 #endif
 
+#include "support/temporary_folder.hpp"
+
 namespace {
 
 delos::Config uniform(const char* spacing) {
@@ -250,6 +252,52 @@ TEST_CASE("imports are the host's own memory, or a copy, on cells or on a lat-lo
   refused([&] { area.bind(area.data()); }, {"cell_area", "only imports"});
   refused([&] { area.stamp(delos::Time::parse("2000-01-01")); }, {"belongs to the component"});
   CHECK_THROWS_AS(u.bind(values), delos::Error);
+}
+
+TEST_CASE("a component goes on from its restart file with its clock, alarms and grid") {
+  const delos::testing::TemporaryFolder folder;
+  const std::string path = folder.file("a.nc");
+  const auto config = uniform("900 km");
+  delos::Component first(config, {.threads = 1});
+  first.initialize();
+  auto clock = daily();
+  clock.add_alarm({.interval = delos::TimeInterval::of_days(2)});
+  refused([&] { delos::Component(config).write_restart(path, clock); }, {"write_restart"});
+  for (int step = 0; step < 2; ++step, clock.advance()) {
+    first.run(first.import_state(), first.export_state(), clock);
+  }
+  first.write_restart(path, clock);
+  first.finalize();
+
+  delos::Component second(config, {.threads = 2});
+  delos::Clock again({.start = delos::Time::parse("1990-01-01"),
+                      .stop = {},
+                      .step = delos::TimeInterval::of_hours(1)});
+  const delos::Alarm alarm = again.add_alarm({.interval = delos::TimeInterval::of_hours(1)});
+  const delos::Alarm lost = again.add_alarm({.interval = delos::TimeInterval::of_hours(2)});
+  refused([&] { second.read_restart(path, again); }, {"read_restart", "created"});
+  second.initialize(delos::InitializePhase::advertise);
+  second.read_restart(path, again);
+  CHECK(again.current() == clock.current());
+  CHECK(again.step() == clock.step());
+  CHECK(alarm.is_ringing());
+  refused([&] { static_cast<void>(lost.is_ringing()); }, {"no alarm 1"});
+  CHECK(second.current_time()->text() == "2000-02-29T00:00:00");
+  CHECK(*second.export_state().field("cell_area").time_stamp() == again.current());
+  CHECK(second.grid().digest() == delos::generate(config).digest());
+  run_all(second, again);
+  CHECK(again.advance_count() == 4);
+
+  delos::Component other(uniform("800 km"));
+  other.initialize(delos::InitializePhase::advertise);
+  try {
+    other.read_restart(path, again);
+    FAIL("a restart file of another configuration was taken");
+  } catch (const delos::Error& error) {
+    CHECK(error.kind() == delos::ErrorKind::input);
+    CHECK(std::string(error.what()).find("900 km there and 800 km here") != std::string::npos);
+  }
+  CHECK(again.current().text() == "2000-03-02T00:00:00");
 }
 
 TEST_CASE("absent items are listed, and ESMF's codes are ESMF's") {

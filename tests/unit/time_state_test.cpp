@@ -47,6 +47,7 @@ TEST_CASE("a clock restored in the middle goes on as the first one") {
   for (int stop = 0; stop < kSteps; ++stop) {
     Clock restored = Clock::restored(straight.state());
     CHECK(restored.state() == straight.state());
+    CHECK(clock_state_of(integers_of(straight.state())) == straight.state());
     Clock other = straight;
     for (int step = stop; step < kSteps; ++step) {
       act(restored);
@@ -122,4 +123,11 @@ TEST_CASE("a damaged state is refused with what is wrong") {
   refused({alarm}, [](ClockState& state) { state.alarms[1].sticky = 1; });
   refused({alarm}, [](ClockState& state) { state.alarms[1].ring_duration.seconds = -1; });
   refused({alarm}, [](ClockState& state) { state.alarms[1].n_steps_ringing = -1; });
+}
+
+TEST_CASE("a number of integers that no clock has is refused") {
+  std::vector<std::int64_t> integers = integers_of(busy_clock().state());
+  integers.pop_back();
+  expect_error(ErrorKind::input, {"integers", "damaged"}, [&] { clock_state_of(integers); });
+  expect_error(ErrorKind::input, {"has 0 integers"}, [&] { clock_state_of({}); });
 }

@@ -27,7 +27,8 @@ struct AlarmOptions {
   bool enabled = true;
 };
 
-/// A handle of an alarm; it keeps its clock's alarms, and copies are the same alarm.
+/// A handle of an alarm; it keeps its clock's alarms, and copies are the same alarm. Error(state)
+/// when a restart file gave its clock fewer alarms.
 class DELOS_API Alarm {
  public:
   /// In its clock, from 0.

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "delos/clock.hpp"
 #include "delos/config.hpp"
@@ -34,7 +35,8 @@ inline constexpr int kEsmfNotFound = 41;  ///< ESMF_RC_NOT_FOUND, an absent item
 DELOS_API int esmf_code(ErrorKind kind);
 
 /// One instance; instances share nothing. Used by one thread at a time. It prints nothing, writes
-/// no file, and has threads in initialize(realize) only, in an arena of its own.
+/// no file but the restart file, and has threads in initialize(realize) and read_restart only, in
+/// an arena of its own.
 ///
 /// A call in the wrong order is Error(state) that says which call is expected; a phase that is
 /// done already does nothing when it is repeated; what throws leaves the component as it was.
@@ -58,6 +60,19 @@ class DELOS_API Component {
   /// that time. The states are the component's own; the first run says when it starts, and every
   /// later one must begin where the last one ended.
   void run(const State& import_state, const State& export_state, const Clock& clock);
+  /// The grid, the host's clock with its alarms, the component's time, the generation and the
+  /// configuration in one file: whole or not at all, the former file stays until it is on the disk.
+  /// After initialize, and after the host has advanced its clock; Error(output) naming the path.
+  /// Values that the host gave to imports are not kept. netCDF serves one thread of a process at
+  /// a time.
+  void write_restart(const std::string& path, const Clock& clock) const;
+  /// In the place of initialize(realize): the component goes on to the last bit as the one that
+  /// wrote the file, with any number of threads. `clock`, of the same calendar, becomes the one
+  /// written, with its alarms; handles of alarms follow by id, and set_stop gives a new end.
+  /// Error(input) names the file when it is missing, no restart file, cut off, altered, of another
+  /// version, or of another configuration, with the settings that differ. What throws leaves
+  /// clock and component as they were.
+  void read_restart(const std::string& path, Clock& clock);
   /// Gives the grid back. The component may be initialized again, with the next generation.
   void finalize();
 
