@@ -7,8 +7,7 @@ using delos::c::need;
 namespace {
 
 delos_config* keep(delos_context* context, delos::Config made) {
-  context->configs.push_back(std::make_unique<delos_config>(std::move(made)));
-  return context->configs.back().get();
+  return context->configs.keep(std::make_unique<delos_config>(*context, std::move(made)));
 }
 
 const char* or_default(const char* text, const char* otherwise) {
@@ -40,9 +39,9 @@ int delos_config_from_text(delos_context* context, const char* yaml, const char*
 int delos_config_destroy(delos_config* config) {
   if (config == nullptr) return DELOS_SUCCESS;
   return call(config, __func__, [&] {
-    config->magic = delos::c::kDeadMagic;
     config->config.reset();
     config->text = std::string();
+    config->context.configs.retire(config);
   });
 }
 

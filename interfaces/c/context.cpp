@@ -12,15 +12,22 @@ const char* kind_name(std::uint64_t magic) {
       return "a configuration";
     case kGridMagic:
       return "a grid";
-    default:
+    case kComponentMagic:
+      return "a component";
+    case kStateMagic:
+      return "a state";
+    case kFieldMagic:
+      return "a field";
+    case kClockMagic:
+      return "a clock";
+    case kDeadMagic:
       return "destroyed";
+    default:
+      return nullptr;
   }
 }
 
-bool is_known(std::uint64_t magic) {
-  return magic == kContextMagic || magic == kConfigMagic || magic == kGridMagic ||
-         magic == kDeadMagic;
-}
+bool is_known(std::uint64_t magic) { return kind_name(magic) != nullptr; }
 
 }  // namespace
 
@@ -68,6 +75,22 @@ int check_handle(const Handle* handle, std::uint64_t kind, const char* function)
   });
 }
 
+GenerateOptions options_of(delos_context& context) {
+  GenerateOptions options;
+  options.threads = context.n_threads;
+  options.cancel = &context.cancel;
+  options.progress = [&context](const Progress& state) {
+    if (context.on_progress == nullptr) return;
+    const delos_progress progress{state.phase.c_str(), state.done, state.total, state.elapsed_s};
+    context.on_progress(&progress, context.progress_data);
+  };
+  options.log = [&context](LogLevel level, const std::string& message) {
+    if (context.on_log == nullptr) return;
+    context.on_log(static_cast<int>(level), message.c_str(), context.log_data);
+  };
+  return options;
+}
+
 }  // namespace delos::c
 
 using delos::c::call;
@@ -95,6 +118,8 @@ const char* delos_status_name(int status) {
       return "internal";
     case DELOS_ERROR_QUALITY:
       return "quality";
+    case DELOS_ERROR_NOT_FOUND:
+      return "not found";
     case DELOS_ERROR_CANCELLED:
       return "cancelled";
     default:

@@ -7,42 +7,9 @@
 
 using delos::c::call;
 using delos::c::need;
+using delos::c::need_handle;
 
 namespace {
-
-delos::GenerateOptions options_of(delos_context* context) {
-  delos::GenerateOptions options;
-  options.threads = context->n_threads;
-  options.cancel = &context->cancel;
-  if (context->on_progress != nullptr) {
-    options.progress = [context](const delos::Progress& state) {
-      const delos_progress progress{state.phase.c_str(), state.done, state.total, state.elapsed_s};
-      context->on_progress(&progress, context->progress_data);
-    };
-  }
-  if (context->on_log != nullptr) {
-    options.log = [context](delos::LogLevel level, const std::string& message) {
-      context->on_log(static_cast<int>(level), message.c_str(), context->log_data);
-    };
-  }
-  return options;
-}
-
-/// A request to stop is used up by the call that it stops, or that ended before.
-struct CancelReset {
-  explicit CancelReset(std::atomic<bool>& requested) : flag(requested) {}
-  CancelReset(const CancelReset&) = delete;
-  CancelReset& operator=(const CancelReset&) = delete;
-  ~CancelReset() { flag = false; }
-  std::atomic<bool>& flag;
-};
-
-void need_config(const delos_config* config) {
-  need(config, "config");
-  if (config->magic != delos_config::kMagic) {
-    throw delos::c::Refusal{DELOS_ERROR_STATE, "config is no configuration, or destroyed"};
-  }
-}
 
 template <class Number>
 void hand_out(std::span<const Number> array, const Number** values, int64_t* size) {
@@ -59,21 +26,23 @@ delos_worst plain(const delos::Worst& worst) {
 int delos_generate(delos_context* context, const delos_config* config, delos_grid** grid) {
   if (grid != nullptr) *grid = nullptr;
   return call(context, __func__, [&] {
-    need_config(config);
+    need_handle(config, "config");
     need(grid, "grid");
-    const CancelReset reset(context->cancel);
-    context->grids.push_back(
-        std::make_unique<delos_grid>(delos::generate(*config->config, options_of(context))));
-    *grid = context->grids.back().get();
+    const delos::c::CancelReset reset(*context);
+    *grid = context->grids.keep(std::make_unique<delos_grid>(
+        *context, delos::generate(*config->config, delos::c::options_of(*context))));
   });
 }
 
 int delos_grid_destroy(delos_grid* grid) {
   if (grid == nullptr) return DELOS_SUCCESS;
   return call(grid, __func__, [&] {
-    grid->magic = delos::c::kDeadMagic;
     grid->grid.reset();
     grid->paths = std::string();
+    grid->context.components.each([&](delos_component& component) {
+      if (component.grid == grid) component.grid = nullptr;
+    });
+    grid->context.grids.retire(grid);
   });
 }
 

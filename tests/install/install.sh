@@ -34,6 +34,6 @@ fi
 # The library must show nothing but its own names.
 library=$(find "$work/prefix" -name 'libdelos.so' | head -1)
 if [[ -n $library ]]; then
-  "$here/../interfaces/symbols.sh" "$library" "$work/prefix/include/delos/delos.h"
+  "$here/../interfaces/symbols.sh" "$library" "$work/prefix/include/delos/"{delos,component}.h
 fi
 echo "install: headers, package and library serve a consumer"

@@ -5,30 +5,11 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "c_check.h"
+
 static const char small_yaml[] =
     "sizing: {sources: [{type: constant, spacing: 600 km}]}\n"
     "refine: {tile_vertices: 500}\n";
-
-static int n_failed = 0;
-
-#define CHECK(condition)                                                  \
-  do {                                                                    \
-    if (!(condition)) {                                                   \
-      fprintf(stderr, "%s:%d: not %s\n", __FILE__, __LINE__, #condition); \
-      ++n_failed;                                                         \
-    }                                                                     \
-  } while (0)
-
-/* The status, and what the text must contain. */
-#define CHECK_FAILS(call, wanted, handle, part)                           \
-  do {                                                                    \
-    CHECK((call) == (wanted));                                            \
-    if (strstr(delos_last_error(handle), part) == NULL) {                 \
-      fprintf(stderr, "%s:%d: \"%s\" lacks \"%s\"\n", __FILE__, __LINE__, \
-              delos_last_error(handle), part);                            \
-      ++n_failed;                                                         \
-    }                                                                     \
-  } while (0)
 
 typedef struct heard {
   delos_context* to_cancel;

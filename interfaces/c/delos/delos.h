@@ -1,7 +1,8 @@
 /* SPDX-License-Identifier: BSD-3-Clause */
 #ifndef DELOS_DELOS_H
 #define DELOS_DELOS_H
-/* delos for C99 and everything that speaks C: configuration -> grid arrays, in memory.
+/* delos for C99 and everything that speaks C: configuration -> grid arrays, in memory. What a
+ * coupled model needs beside, delos/component.h, is included at the end.
  *
  *   delos_context* context;  delos_config* config;  delos_grid* grid;  const double* area_m2;
  *   delos_context_create(&context);
@@ -15,11 +16,11 @@
  * delos_last_error() says what went wrong, where, and what to do. Nothing is printed, no
  * exception leaves a function.
  *
- * Handles: a context owns every configuration and grid made in it. A destroyed handle is
- * recognised (DELOS_ERROR_STATE) as long as its context lives; a destroyed context is not, for
- * certain. One thread at a time works in a context and on its handles, but for
- * delos_context_cancel, and for the const arrays and numbers of a grid, which any number of
- * threads may ask for.
+ * Handles: a context owns everything made in it. A destroyed handle is recognised
+ * (DELOS_ERROR_STATE) until its context goes or a hundred others of its kind were destroyed after
+ * it; a destroyed context is not, for certain. One thread at a time works in a context and on its
+ * handles, but for delos_context_cancel, and for the const arrays and numbers of a grid, which any
+ * number of threads may ask for.
  *
  * Strings: what goes in is copied. What comes out belongs to the handle; its life is said there.
  */
@@ -33,7 +34,7 @@ extern "C" {
 
 /* Grows when a program compiled with an older header can't use the library: compare it with
  * delos_abi_version() once, at the start. */
-#define DELOS_ABI_VERSION 1
+#define DELOS_ABI_VERSION 2
 DELOS_C_API int delos_abi_version(void);
 /* "major.minor.patch" of the library that runs; static storage. */
 DELOS_C_API const char* delos_version(void);
@@ -48,6 +49,7 @@ typedef enum delos_status {
   DELOS_ERROR_INPUT = 21,      /* ESMF_RC_FILE_READ: an input file is missing or unusable */
   DELOS_ERROR_OUTPUT = 22,     /* ESMF_RC_FILE_WRITE: an output can't be written */
   DELOS_ERROR_RESOURCE = 30,   /* ESMF_RC_MEM: does not fit memory, disk or 32-bit ids */
+  DELOS_ERROR_NOT_FOUND = 41,  /* ESMF_RC_NOT_FOUND: a state has no such item */
   DELOS_ERROR_INTERNAL = 45,   /* ESMF_RC_INTNRL_BAD: a bug in delos, or a callback that threw */
   DELOS_ERROR_QUALITY = 56,    /* ESMF_RC_VAL_OUTOFRANGE: what `require:` asks for is not met */
   DELOS_ERROR_CANCELLED = 1001 /* none in ESMF (1..1000): the caller asked to stop */
@@ -60,9 +62,9 @@ typedef struct delos_context delos_context; /* errors, callbacks, threads; owner
 typedef struct delos_config delos_config;   /* a grid's recipe */
 typedef struct delos_grid delos_grid;       /* a finished, immutable grid */
 
-/* Text of the last call on this handle that failed, "" before. `handle` is of any of the three
- * types. What could not make a handle (delos_config_from_*, delos_generate) left its text on the
- * context. Valid until the next failing call on the handle. Never NULL. */
+/* Text of the last call on this handle that failed, "" before. `handle` is of any type
+ * of this interface. What could not make a handle (delos_config_from_*, delos_generate) left its
+ * text on the context. Valid until the next failing call on the handle. Never NULL. */
 DELOS_C_API const char* delos_last_error(const void* handle);
 
 /* --- context */
@@ -70,8 +72,8 @@ DELOS_C_API const char* delos_last_error(const void* handle);
 DELOS_C_API int delos_context_create(delos_context** context);
 /* Destroys everything made in it too. NULL is allowed. */
 DELOS_C_API int delos_context_destroy(delos_context* context);
-/* Threads of delos_generate, 0 (at first) = what the configuration says. The grid does not depend
- * on it, to the last bit. */
+/* Threads of delos_generate and of components made later, 0 (at first) = what the configuration
+ * says. The grid does not depend on it, to the last bit. */
 DELOS_C_API int delos_context_set_threads(delos_context* context, int n_threads);
 
 typedef struct delos_progress {
@@ -92,8 +94,9 @@ DELOS_C_API int delos_context_set_progress(delos_context* context, delos_progres
                                            void* user_data);
 DELOS_C_API int delos_context_set_log(delos_context* context, delos_log_callback callback,
                                       void* user_data);
-/* Stops the delos_generate that runs, or the next one, with DELOS_ERROR_CANCELLED soon after. May
- * be called from callbacks, other threads and signal handlers. Used up when delos_generate ends. */
+/* Stops what makes a grid (delos_generate, delos_component_realize and _read_restart), the call
+ * that runs or the next one, with DELOS_ERROR_CANCELLED soon after. May be called from callbacks,
+ * other threads and signal handlers. Used up when that call ends. */
 DELOS_C_API int delos_context_cancel(delos_context* context);
 
 /* --- configuration: YAML; config/defaults.yaml explains every key. DELOS_ERROR_CONFIG's text
@@ -282,4 +285,6 @@ DELOS_C_API int delos_grid_write_outputs(delos_grid* grid, const char* directory
 #ifdef __cplusplus
 }
 #endif
+
+#include <delos/component.h>
 #endif
