@@ -36,3 +36,14 @@ function(delos_tests label)
   endif()
   doctest_discover_tests(${label}_tests PROPERTIES LABELS ${label} TIMEOUT ${arg_TIMEOUT})
 endfunction()
+
+# delos_mpi_test(NAME N_PROCESSES COMMAND...): a job of some processes on whatever cores there are.
+function(delos_mpi_test name n_processes)
+  add_test(NAME "${name}" COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${n_processes}
+    ${MPIEXEC_PREFLAGS} ${ARGN} ${MPIEXEC_POSTFLAGS})
+  # Open MPI wants these, as root and with more processes than cores.
+  set(open_mpi OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+    OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe)
+  set_tests_properties("${name}" PROPERTIES LABELS mpi TIMEOUT 60 PROCESSORS 2
+    ENVIRONMENT "${open_mpi}")
+endfunction()

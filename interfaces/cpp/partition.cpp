@@ -28,8 +28,8 @@ constexpr std::int64_t kLayoutMagic = 0x64656c6f734c4701;
 template <class Number, class Row>
 std::span<const Number> flat(const Array<Row>& rows) {
   static_assert(sizeof(Row) % sizeof(Number) == 0);
-  return {reinterpret_cast<const Number*>(rows.data()),
-          rows.size() * (sizeof(Row) / sizeof(Number))};
+  const std::span<const Row> all(rows);
+  return {reinterpret_cast<const Number*>(all.data()), all.size_bytes() / sizeof(Number)};
 }
 
 template <class Rows>

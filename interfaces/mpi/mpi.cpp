@@ -381,7 +381,8 @@ class Exchange {
     check(MPI_Alltoall(out_counts_.data(), 1, MPI_INT, in_counts_.data(), 1, MPI_INT, ranks_),
           "MPI_Alltoall");
     in_begins_ = begins(in_counts_);
-    asked_.resize(static_cast<std::size_t>(in_begins_.back() + in_counts_.back()));
+    asked_.resize(static_cast<std::size_t>(in_begins_.back()) +
+                  static_cast<std::size_t>(in_counts_.back()));
     check(MPI_Alltoallv(sorted.data(), out_counts_.data(), out_begins_.data(), MPI_INT32_T,
                         asked_.data(), in_counts_.data(), in_begins_.data(), MPI_INT32_T, ranks_),
           "MPI_Alltoallv");

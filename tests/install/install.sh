@@ -28,6 +28,9 @@ cmake --build "$work/build" -j 2 >/dev/null
 "$work/build/consumer"
 "$work/build/c_consumer"
 "$work/build/bmi_consumer" "$work/grid.yaml"
+if [[ -e $work/prefix/include/delos/mpi.hpp ]]; then
+  "$work/build/mpi_consumer"  # a job of one process needs no mpiexec
+fi
 if compgen -G "$work/prefix/include/delos/fortran/delos.mod" >/dev/null; then
   "$work/build/fortran_consumer"
 fi

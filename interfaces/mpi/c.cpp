@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "delos/delos_mpi.h"
+#include "delos/mpi.hpp"
+
+using delos::Location;
+using delos::mpi::DistributedGrid;
+
+// NOLINTNEXTLINE(readability-identifier-naming): the name of the C type
+struct delos_mpi_grid {
+  std::optional<DistributedGrid> grid;
+  std::string error;
+};
+
+namespace {
+
+/// An argument that can't be used.
+struct Refusal {
+  std::string message;
+};
+
+int status_of(delos::ErrorKind kind) {
+  switch (kind) {
+    case delos::ErrorKind::config:
+      return DELOS_ERROR_CONFIG;
+    case delos::ErrorKind::input:
+      return DELOS_ERROR_INPUT;
+    case delos::ErrorKind::output:
+      return DELOS_ERROR_OUTPUT;
+    case delos::ErrorKind::resource:
+      return DELOS_ERROR_RESOURCE;
+    case delos::ErrorKind::state:
+      return DELOS_ERROR_STATE;
+    case delos::ErrorKind::quality:
+      return DELOS_ERROR_QUALITY;
+    case delos::ErrorKind::cancelled:
+      return DELOS_ERROR_CANCELLED;
+    case delos::ErrorKind::internal:
+      break;
+  }
+  return DELOS_ERROR_INTERNAL;
+}
+
+int fail(delos_mpi_grid* handle, int status, const char* message) noexcept {
+  try {
+    handle->error = message;
+  } catch (...) {
+    handle->error.clear();
+  }
+  return status;
+}
+
+/// Runs body(); what it throws becomes a status, and a text on the handle.
+template <class Body>
+int guarded(delos_mpi_grid* handle, Body&& body) noexcept {
+  try {
+    body();
+    return DELOS_SUCCESS;
+  } catch (const delos::Error& error) {
+    return fail(handle, status_of(error.kind()), error.what());
+  } catch (const Refusal& refusal) {
+    return fail(handle, DELOS_ERROR_ARGUMENT, refusal.message.c_str());
+  } catch (const std::bad_alloc&) {
+    return fail(handle, DELOS_ERROR_RESOURCE, "out of memory");
+  } catch (const std::exception& error) {
+    return fail(handle, DELOS_ERROR_INTERNAL, error.what());
+  } catch (...) {
+    return fail(handle, DELOS_ERROR_INTERNAL, "a callback threw");
+  }
+}
+
+void need(const void* argument, const char* function, const char* name) {
+  if (argument == nullptr) {
+    throw Refusal{std::string(function) + ": " + name + " is NULL: pass a valid pointer"};
+  }
+}
+
+/// A function on a part: body(grid).
+template <class Body>
+int call(delos_mpi_grid* handle, Body&& body) noexcept {
+  if (handle == nullptr) return DELOS_ERROR_ARGUMENT;
+  return guarded(handle, [&] {
+    if (!handle->grid) {
+      throw delos::Error(delos::ErrorKind::state,
+                         "this handle has no grid, since making it failed: destroy it");
+    }
+    body(*handle->grid);
+  });
+}
+
+/// Numbers beyond the three become one that LocalGrid refuses.
+Location location_of(int number) {
+  constexpr Location kKnown[] = {Location::cell, Location::edge, Location::vertex};
+  return number >= 0 && number < 3 ? kKnown[number] : Location::grid;
+}
+
+template <class Number>
+std::span<Number> field(Number* values, int64_t size) {
+  return {values, values == nullptr || size < 0 ? 0 : static_cast<std::size_t>(size)};
+}
+
+std::vector<double> weights(const delos_mpi_options& options, const delos::Grid& grid) {
+  std::vector<double> out(static_cast<std::size_t>(grid.n_cells()), 0.0);
+  const int status = options.cell_weight(grid.n_cells(), grid.cell_lon_lat().data(), out.data(),
+                                         options.user_data);
+  if (status != 0) {
+    throw delos::Error(delos::ErrorKind::input,
+                       "the callback for the weights of cells failed, and "
+                       "returned " +
+                           std::to_string(status) + ".");
+  }
+  return out;
+}
+
+delos::mpi::Options options_of(const delos_mpi_options* given) {
+  const delos_mpi_options from = given == nullptr ? delos_mpi_options{} : *given;
+  delos::mpi::Options out;
+  out.generate.threads = std::max(from.n_threads, 0);
+  out.root = from.root;
+  out.halo_layers = from.halo_layers == 0 ? 1 : from.halo_layers;
+  out.method = from.method == DELOS_MPI_KWAY    ? delos::PartitionMethod::kway
+               : from.method == DELOS_MPI_CURVE ? delos::PartitionMethod::curve
+                                                : delos::PartitionMethod::automatic;
+  if (from.cell_weight != nullptr) {
+    out.cell_weight = [from](const delos::Grid& grid) { return weights(from, grid); };
+  }
+  return out;
+}
+
+template <class Configure>
+int generate(MPI_Comm comm, const delos_mpi_options* options, delos_mpi_grid** grid,
+             Configure&& configure) noexcept {
+  if (grid == nullptr) return DELOS_ERROR_ARGUMENT;
+  *grid = new (std::nothrow) delos_mpi_grid;
+  if (*grid == nullptr) return DELOS_ERROR_RESOURCE;
+  return guarded(
+      *grid, [&] { (*grid)->grid = delos::mpi::generate(comm, configure, options_of(options)); });
+}
+
+delos::Config from_file(const char* path) {
+  if (path == nullptr) throw delos::Error(delos::ErrorKind::config, "path is NULL: name a file.");
+  return delos::Config::from_file(path);
+}
+
+delos::Config from_text(const char* yaml, const char* folder) {
+  if (yaml == nullptr) throw delos::Error(delos::ErrorKind::config, "yaml is NULL: give a text.");
+  return delos::Config::from_text(yaml, "configuration", folder == nullptr ? "." : folder);
+}
+
+template <class Number>
+int exchange(delos_mpi_grid* grid, std::span<Number> values, int location, int n_components) {
+  return call(grid, [&](const DistributedGrid& own) {
+    own.exchange(values, location_of(location), n_components);
+  });
+}
+
+}  // namespace
+
+int delos_mpi_generate_file(MPI_Comm comm, const char* path, const delos_mpi_options* options,
+                            delos_mpi_grid** grid) {
+  return generate(comm, options, grid, [&] { return from_file(path); });
+}
+int delos_mpi_generate_file_f(MPI_Fint comm, const char* path, const delos_mpi_options* options,
+                              delos_mpi_grid** grid) {
+  return delos_mpi_generate_file(MPI_Comm_f2c(comm), path, options, grid);
+}
+int delos_mpi_generate_text(MPI_Comm comm, const char* yaml, const char* folder,
+                            const delos_mpi_options* options, delos_mpi_grid** grid) {
+  return generate(comm, options, grid, [&] { return from_text(yaml, folder); });
+}
+int delos_mpi_generate_text_f(MPI_Fint comm, const char* yaml, const char* folder,
+                              const delos_mpi_options* options, delos_mpi_grid** grid) {
+  return delos_mpi_generate_text(MPI_Comm_f2c(comm), yaml, folder, options, grid);
+}
+
+int delos_mpi_grid_destroy(delos_mpi_grid* grid) {
+  delete grid;
+  return DELOS_SUCCESS;
+}
+
+const char* delos_mpi_last_error(const delos_mpi_grid* grid) {
+  return grid == nullptr ? "the handle is NULL: the call that should have made it failed"
+                         : grid->error.c_str();
+}
+
+int delos_mpi_grid_generation(delos_mpi_grid* grid, int64_t* generation) {
+  return call(grid, [&](const DistributedGrid& own) {
+    need(generation, "delos_mpi_grid_generation", "generation");
+    *generation = own.generation();
+  });
+}
+
+int delos_mpi_grid_digest(delos_mpi_grid* grid, const char** text) {
+  if (text != nullptr) *text = nullptr;
+  return call(grid, [&](const DistributedGrid& own) {
+    need(text, "delos_mpi_grid_digest", "text");
+    *text = own.digest().c_str();
+  });
+}
+
+#define DELOS_COUNT(name)                                                         \
+  int delos_mpi_grid_##name(delos_mpi_grid* grid, int location, int64_t* value) { \
+    return call(grid, [&](const DistributedGrid& own) {                           \
+      need(value, "delos_mpi_grid_" #name, "n");                                  \
+      *value = own.local().name(location_of(location));                           \
+    });                                                                           \
+  }
+DELOS_COUNT(n_local)
+DELOS_COUNT(n_owned)
+DELOS_COUNT(n_global)
+#undef DELOS_COUNT
+
+#define DELOS_LIST(name, type)                                                       \
+  int delos_mpi_grid_##name(delos_mpi_grid* grid, int location, const type** values, \
+                            int64_t* size) {                                         \
+    if (values != nullptr) *values = nullptr;                                        \
+    return call(grid, [&](const DistributedGrid& own) {                              \
+      need(values, "delos_mpi_grid_" #name, "values");                               \
+      const std::span<const type> list = own.local().name(location_of(location));    \
+      *values = list.data();                                                         \
+      if (size != nullptr) *size = static_cast<int64_t>(list.size());                \
+    });                                                                              \
+  }
+DELOS_LIST(global_id, int32_t)
+DELOS_LIST(owner, int32_t)
+DELOS_LIST(layer_offsets, int64_t)
+DELOS_LIST(neighbours, int32_t)
+DELOS_LIST(send_offsets, int64_t)
+DELOS_LIST(send_ids, int32_t)
+DELOS_LIST(receive_offsets, int64_t)
+DELOS_LIST(receive_ids, int32_t)
+#undef DELOS_LIST
+
+#define DELOS_ARRAY(name, type)                                                         \
+  int delos_mpi_grid_##name(delos_mpi_grid* grid, const type** values, int64_t* size) { \
+    if (values != nullptr) *values = nullptr;                                           \
+    return call(grid, [&](const DistributedGrid& own) {                                 \
+      need(values, "delos_mpi_grid_" #name, "values");                                  \
+      const std::span<const type> array = own.local().name();                           \
+      *values = array.data();                                                           \
+      if (size != nullptr) *size = static_cast<int64_t>(array.size());                  \
+    });                                                                                 \
+  }
+DELOS_ARRAY(cell_position, double)
+DELOS_ARRAY(edge_position, double)
+DELOS_ARRAY(vertex_position, double)
+DELOS_ARRAY(cell_lon_lat, double)
+DELOS_ARRAY(edge_lon_lat, double)
+DELOS_ARRAY(vertex_lon_lat, double)
+DELOS_ARRAY(cell_offsets, int64_t)
+DELOS_ARRAY(edges_on_cell, int32_t)
+DELOS_ARRAY(vertices_on_cell, int32_t)
+DELOS_ARRAY(cells_on_cell, int32_t)
+DELOS_ARRAY(cells_on_edge, int32_t)
+DELOS_ARRAY(vertices_on_edge, int32_t)
+DELOS_ARRAY(cells_on_vertex, int32_t)
+DELOS_ARRAY(edges_on_vertex, int32_t)
+DELOS_ARRAY(edge_offsets, int64_t)
+DELOS_ARRAY(edges_on_edge, int32_t)
+DELOS_ARRAY(weights_on_edge, double)
+DELOS_ARRAY(cell_area_m2, double)
+DELOS_ARRAY(cell_spacing_m, double)
+DELOS_ARRAY(edge_spacing_m, double)
+DELOS_ARRAY(triangle_area_m2, double)
+DELOS_ARRAY(kite_area_m2, double)
+DELOS_ARRAY(cell_distance_m, double)
+DELOS_ARRAY(vertex_distance_m, double)
+DELOS_ARRAY(edge_angle_rad, double)
+#undef DELOS_ARRAY
+
+int delos_mpi_exchange(delos_mpi_grid* grid, double* values, int64_t size, int location,
+                       int n_components) {
+  return exchange(grid, field(values, size), location, n_components);
+}
+int delos_mpi_exchange_float(delos_mpi_grid* grid, float* values, int64_t size, int location,
+                             int n_components) {
+  return exchange(grid, field(values, size), location, n_components);
+}
+int delos_mpi_exchange_int32(delos_mpi_grid* grid, int32_t* values, int64_t size, int location,
+                             int n_components) {
+  return exchange(grid, field(values, size), location, n_components);
+}
+
+// What is wrong with an argument of one process is found after the collective part, or by it, so
+// that the others do not wait.
+// NOLINTBEGIN(readability-function-size): C has no structs of arguments to spare
+int delos_mpi_gather(delos_mpi_grid* grid, const double* values, int64_t size, int location,
+                     int n_components, double* whole) {
+  return call(grid, [&](const DistributedGrid& own) {
+    const auto all = own.gather(field(values, size), location_of(location), n_components);
+    if (own.local().part() != own.root()) return;
+    need(whole, "delos_mpi_gather", "whole");
+    std::copy(all.begin(), all.end(), whole);
+  });
+}
+
+int delos_mpi_scatter(delos_mpi_grid* grid, const double* whole, int location, int n_components,
+                      double* values, int64_t size) {
+  return call(grid, [&](const DistributedGrid& own) {
+    const Location at = location_of(location);
+    const auto part = own.scatter(
+        field(whole, own.local().n_global(at) * std::max(n_components, 0)), at, n_components);
+    if (field(values, size).size() != part.size()) {
+      throw Refusal{"delos_mpi_scatter: size = " + std::to_string(size) + ": must be n_local * " +
+                    std::to_string(n_components) + " = " + std::to_string(part.size())};
+    }
+    std::copy(part.begin(), part.end(), values);
+  });
+}
+// NOLINTEND(readability-function-size)
