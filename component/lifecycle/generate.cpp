@@ -110,13 +110,15 @@ void describe_inputs(const Settings& settings, const Inputs& inputs, Report& rep
 }
 
 void build_dual(Context& context, Product& product) {
-  const Phase phase(context.monitor, "dual", product.mesh.n_vertices());
-  product.grid =
-      build_grid(context, product.settings.surface, product.settings.latitude, product.mesh);
   const Ellipsoid& surface = product.settings.surface;
-  product.grid->edge_spacing_m =
-      spacing_at_edges(context.exec, {surface, product.spacing, product.mesh.vertices},
-                       product.grid->cells_on_edge, [&](const Vec3&) { return surface.scale_m(); });
+  {
+    const Phase phase(context.monitor, "dual", product.mesh.n_vertices());
+    product.grid = build_grid(context, surface, product.settings.latitude, product.mesh);
+    product.grid->edge_spacing_m = spacing_at_edges(
+        context.exec, {surface, product.spacing, product.mesh.vertices},
+        product.grid->cells_on_edge, [&](const Vec3&) { return surface.scale_m(); });
+  }
+  const Phase phase(context.monitor, "digest", product.mesh.n_vertices());
   product.report.sections.push_back({"dual", {{"digest", digest(context.exec, *product.grid)}}});
 }
 

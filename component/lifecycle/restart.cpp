@@ -182,22 +182,24 @@ std::optional<LatLonField> read_table(const RestartFile& file, const std::string
   const std::vector<std::int64_t> shape = file.integers(name + "_shape");
   DELOS_CHECK(shape.size() == 2, ErrorKind::input, "the restart file ", file.path(), " has ",
               shape.size(), " numbers as the shape of ", name, ": must be 2.");
-  return LatLonField{static_cast<Index>(shape[0]), static_cast<Index>(shape[1]),
-                     file.doubles(name)};
+  const std::vector<double> values = file.doubles(name);
+  return LatLonField{
+      static_cast<Index>(shape[0]), static_cast<Index>(shape[1]), {values.begin(), values.end()}};
 }
 
 Clock read_clock(const RestartFile& file, const char* name) {
   return Clock::restored(clock_state_of(file.integers(name)));
 }
 
-SavedProduct read_saved(const RestartFile& file, const Settings& settings) {
+SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
+                        const Settings& settings) {
   std::optional<LatLonField> table_m = read_table(file, kSpacingTable);
   const std::optional<LatLonField> scaled = read_table(file, kSpacing);
   DELOS_CHECK(table_m || scaled, ErrorKind::input, "the restart file ", file.path(),
               " has neither ", kSpacing, " nor ", kSpacingTable, ". Take another one.");
-  SpacingField spacing = scaled
-                             ? SpacingField::of_scaled(settings.surface, settings.latitude, *scaled)
-                             : SpacingField::table(settings.surface, settings.latitude, *table_m);
+  SpacingField spacing =
+      scaled ? SpacingField::of_scaled(exec, settings.surface, settings.latitude, *scaled)
+             : SpacingField::table(exec, settings.surface, settings.latitude, *table_m);
   return {read_mesh(file), std::move(spacing), std::move(table_m), file.text(kNotes)};
 }
 
@@ -216,7 +218,7 @@ Restart read_restart(Context& context, const Settings& settings, const std::stri
   Clock host = read_clock(file, kClock);
   std::optional<Clock> component;
   if (file.has(kComponentClock)) component = read_clock(file, kComponentClock);
-  SavedProduct saved = read_saved(file, settings);
+  SavedProduct saved = read_saved(context.exec, file, settings);
   phase.reset();
   auto product = std::make_shared<const Product>(resume(context, settings, std::move(saved)));
   return {std::move(product), generation.front(), std::move(host), std::move(component)};

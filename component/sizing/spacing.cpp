@@ -111,6 +111,14 @@ double inverse_square_mean(double a0, double b0, double a1, double b1) {
 
 }  // namespace
 
+/// What a table is made of: nodes in `unit`.
+struct SpacingField::TableSource {
+  Vec3 weight;
+  LatitudeKind latitude;
+  const LatLonField& nodes;
+  double unit;
+};
+
 struct SpacingField::Table {
   Lookup lookup;
   LatitudeKind latitude;
@@ -183,54 +191,52 @@ SpacingField SpacingField::table(const Ellipsoid& surface, LatitudeKind latitude
 SpacingField SpacingField::table(parallel::Executor& exec, const Ellipsoid& surface,
                                  LatitudeKind latitude, const LatLonField& spacing_m) {
   check_table(exec, spacing_m, " m");
-  return make_table(exec, surface, latitude, spacing_m, surface.scale_m());
+  SpacingField field;
+  field.scale_m_ = surface.scale_m();
+  field.fill(exec, {direction_weight(surface, latitude), latitude, spacing_m, field.scale_m_});
+  return field;
 }
 
-SpacingField SpacingField::of_scaled(const Ellipsoid& surface, LatitudeKind latitude,
-                                     const LatLonField& spacing) {
+SpacingField SpacingField::of_scaled(parallel::Executor& exec, const Ellipsoid& surface,
+                                     LatitudeKind latitude, const LatLonField& spacing) {
+  SpacingField field;
+  field.scale_m_ = surface.scale_m();
   if (spacing.n_lon > 0) {
-    parallel::Executor exec(1);
     check_table(exec, spacing, " radii");
-    return make_table(exec, surface, latitude, spacing, 1.0);
+    field.fill(exec, {direction_weight(surface, latitude), latitude, spacing, 1.0});
+    return field;
   }
   DELOS_CHECK(
       spacing.values.size() == 1 && std::isfinite(spacing.values[0]) && spacing.values[0] > 0.0,
       ErrorKind::input, "a constant spacing of ", spacing.values.size(),
       " values: give one, finite and > 0");
-  SpacingField field;
-  field.scale_m_ = surface.scale_m();
   field.min_ = field.max_ = spacing.values[0];
   return field;
 }
 
-SpacingField SpacingField::make_table(parallel::Executor& exec, const Ellipsoid& surface,
-                                      LatitudeKind latitude, const LatLonField& nodes,
-                                      double unit) {
+void SpacingField::fill(parallel::Executor& exec, const TableSource& source) {
+  const LatLonField& nodes = source.nodes;
   auto table = std::make_shared<Table>();
   const Index n_lon = nodes.n_lon;
-  table->latitude = latitude;
+  table->latitude = source.latitude;
   table->n_rows = nodes.n_rows();
   table->n_columns = n_lon + 1;
-  table->lookup = {direction_weight(surface, latitude), n_lon / (2.0 * kPi),
-                   nodes.n_lat_cells / kPi, static_cast<double>(n_lon),
-                   static_cast<double>(nodes.n_lat_cells)};
+  table->lookup = {source.weight, n_lon / (2.0 * kPi), nodes.n_lat_cells / kPi,
+                   static_cast<double>(n_lon), static_cast<double>(nodes.n_lat_cells)};
   table->values.resize(static_cast<std::size_t>(table->n_rows) *
                        static_cast<std::size_t>(table->n_columns));
 
-  SpacingField field;
-  field.scale_m_ = surface.scale_m();
   std::vector<std::pair<double, double>> bounds(static_cast<std::size_t>(table->n_rows));
   parallel::for_index(exec, table->n_rows, kRowGrain, [&](std::int64_t row) {
-    bounds[static_cast<std::size_t>(row)] = fill_row(nodes, static_cast<Index>(row), unit,
+    bounds[static_cast<std::size_t>(row)] = fill_row(nodes, static_cast<Index>(row), source.unit,
                                                      table->values.data() + row * table->n_columns);
   });
-  field.min_ = std::numeric_limits<double>::infinity();
+  min_ = std::numeric_limits<double>::infinity();
   for (const auto& [least, greatest] : bounds) {
-    field.min_ = std::min(field.min_, least);
-    field.max_ = std::max(field.max_, greatest);
+    min_ = std::min(min_, least);
+    max_ = std::max(max_, greatest);
   }
-  field.table_ = std::move(table);
-  return field;
+  table_ = std::move(table);
 }
 
 double SpacingField::at(double x, double y, double z) const {

@@ -46,8 +46,8 @@ class SpacingField {
                             const LatLonField& spacing_m);
 
   /// What scaled() gave, as the same field to the last bit. Error(input) as table().
-  static SpacingField of_scaled(const Ellipsoid& surface, LatitudeKind latitude,
-                                const LatLonField& spacing);
+  static SpacingField of_scaled(parallel::Executor& exec, const Ellipsoid& surface,
+                                LatitudeKind latitude, const LatLonField& spacing);
 
   /// Scaled spacing at a scaled surface point.
   double at(double x, double y, double z) const;
@@ -68,8 +68,8 @@ class SpacingField {
  private:
   friend double expected_vertices(parallel::Executor&, const Ellipsoid&, const SpacingField&);
   struct Table;
-  static SpacingField make_table(parallel::Executor& exec, const Ellipsoid& surface,
-                                 LatitudeKind latitude, const LatLonField& nodes, double unit);
+  struct TableSource;
+  void fill(parallel::Executor& exec, const TableSource& source);
   LatLonField nodes(double unit) const;
 
   std::shared_ptr<const Table> table_;

@@ -24,8 +24,8 @@ namespace {
 
 constexpr double kBytesPerMib = 1024.0 * 1024.0;
 /// Phases of a line in their order; what a case lacks is null.
-constexpr const char* kPhases[] = {"read",    "spacing", "limit", "refine",   "relax", "polish",
-                                   "quality", "dual",    "write", "delaunay", "cgal"};
+constexpr const char* kPhases[] = {"read",    "spacing", "limit",  "refine", "relax",    "polish",
+                                   "quality", "dual",    "digest", "write",  "delaunay", "cgal"};
 /// Phases at whose end the peak of memory is told; it never falls from one to the next.
 constexpr const char* kPeaks[] = {"refine", "relax", "polish", "dual"};
 

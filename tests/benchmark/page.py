@@ -18,7 +18,7 @@ from dataclasses import dataclass
 HERE = pathlib.Path(__file__).resolve().parent
 PAGE = HERE.parents[1] / "component" / "PERFORMANCE.md"
 
-PHASES = ["read", "spacing", "refine", "relax", "polish", "quality", "dual", "write"]
+PHASES = ["read", "spacing", "refine", "relax", "polish", "quality", "dual", "digest", "write"]
 BESIDE = ["limit", "delaunay", "cgal"]  # measured beside the run
 ALL_PHASES = PHASES + BESIDE
 MESH = ["refine", "relax", "polish"]  # what makes a triangulation of a spacing

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <functional>
 
-#include "dual/build.hpp"
+#include "dual/digest.hpp"
 #include "io/restart.hpp"
 #include "lifecycle/component.hpp"
 #include "lifecycle/settings_tree.hpp"
