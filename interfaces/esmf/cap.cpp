@@ -7,12 +7,16 @@
 #include <cstddef>
 #include <delos/delos.hpp>
 #include <exception>
-#include <limits>
+#include <memory>
 #include <new>
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
+
+#include "team.hpp"
 
 namespace {
 
@@ -31,28 +35,14 @@ struct Item {
 
 /// A process's part of the mesh; delos_cap_mesh points into it.
 struct Mesh {
-  std::int64_t first_cell = 0;
   std::vector<std::int32_t> node_ids, node_owners, element_ids, element_corners, element_nodes;
   std::vector<double> node_lon_lat_deg, element_area, element_lon_lat_deg;
+  std::vector<double> area_m2, spacing_m;  // exports, [n_elements]
 };
 
-/// Processes own runs of cell ids, which follow the grid's own order in space.
-struct Blocks {
-  std::int64_t n_cells;
-  std::int64_t n_processes;
-  std::int64_t first(std::int64_t process) const { return n_cells * process / n_processes; }
-  std::int32_t owner(std::int64_t cell) const {
-    auto process = (cell * n_processes) / n_cells;
-    while (first(process + 1) <= cell) ++process;
-    return static_cast<std::int32_t>(process);
-  }
-};
-
-void append_degrees(std::span<const double> lon_lat_rad, std::int64_t id,
-                    std::vector<double>& out) {
-  const auto i = static_cast<std::size_t>(2 * id);
-  out.push_back(lon_lat_rad[i] * kDegPerRad);
-  out.push_back(lon_lat_rad[i + 1] * kDegPerRad);
+void append_degrees(std::span<const double> lon_lat_rad, std::size_t id, std::vector<double>& out) {
+  out.push_back(lon_lat_rad[2 * id] * kDegPerRad);
+  out.push_back(lon_lat_rad[2 * id + 1] * kDegPerRad);
 }
 
 /// m2 of the surface to a square radian: R2 of a sphere, of an ellipsoid that of the sphere of
@@ -65,43 +55,38 @@ double unit_area_m2(const delos::Grid& grid) {
   return total_m2 / (4.0 * kPi);
 }
 
-void add_elements(const delos::Grid& grid, const Blocks& blocks, int process, Mesh& mesh) {
-  const double unit_m2 = unit_area_m2(grid);
-  std::vector<std::int32_t> local(static_cast<std::size_t>(grid.n_vertices()), 0);  // from 1
-  for (std::int64_t cell = blocks.first(process); cell < blocks.first(process + 1); ++cell) {
-    const auto i = static_cast<std::size_t>(cell);
-    const auto begin = grid.cell_offsets()[i];
-    const auto end = grid.cell_offsets()[i + 1];
-    mesh.element_ids.push_back(static_cast<std::int32_t>(cell + 1));
-    mesh.element_corners.push_back(static_cast<std::int32_t>(end - begin));
-    mesh.element_area.push_back(grid.cell_area_m2()[i] / unit_m2);
-    append_degrees(grid.cell_lon_lat(), cell, mesh.element_lon_lat_deg);
-    for (std::int64_t j = begin; j < end; ++j) {
-      const std::int32_t vertex = grid.vertices_on_cell()[static_cast<std::size_t>(j)];
-      auto& node = local[static_cast<std::size_t>(vertex)];
-      if (node == 0) {
-        mesh.node_ids.push_back(vertex + 1);
-        node = static_cast<std::int32_t>(mesh.node_ids.size());
-      }
-      mesh.element_nodes.push_back(node);
+/// The cell's corners as nodes, which are made where they are met first; `node` counts from 1, 0 is
+/// a vertex not met yet.
+void add_corners(const delos::LocalGrid& grid, std::size_t cell, std::vector<std::int32_t>& node,
+                 Mesh& mesh) {
+  const auto begin = static_cast<std::size_t>(grid.cell_offsets()[cell]);
+  const auto end = static_cast<std::size_t>(grid.cell_offsets()[cell + 1]);
+  mesh.element_corners.push_back(static_cast<std::int32_t>(end - begin));
+  for (std::size_t j = begin; j < end; ++j) {
+    const auto vertex = static_cast<std::size_t>(grid.vertices_on_cell()[j]);
+    if (node[vertex] == 0) {
+      // A vertex's owner owns its first cell, and so has the node as well.
+      mesh.node_ids.push_back(grid.global_id(delos::Location::vertex)[vertex] + 1);
+      mesh.node_owners.push_back(grid.owner(delos::Location::vertex)[vertex]);
+      append_degrees(grid.vertex_lon_lat(), vertex, mesh.node_lon_lat_deg);
+      node[vertex] = static_cast<std::int32_t>(mesh.node_ids.size());
     }
+    mesh.element_nodes.push_back(node[vertex]);
   }
 }
 
-Mesh mesh_of(const delos::Grid& grid, int process, int n_processes) {
-  const Blocks blocks{grid.n_cells(), n_processes};
+Mesh mesh_of(const delos::LocalGrid& grid, double unit_m2) {
   Mesh mesh;
-  mesh.first_cell = blocks.first(process);
-  add_elements(grid, blocks, process, mesh);
-  for (const std::int32_t id : mesh.node_ids) {
-    const auto cells = grid.cells_on_vertex().subspan(3 * static_cast<std::size_t>(id - 1), 3);
-    // The lowest process that has one of the vertex's cells, so that all of them agree.
-    std::int32_t owner = std::numeric_limits<std::int32_t>::max();
-    for (const std::int32_t cell : cells) {
-      if (cell >= 0) owner = std::min(owner, blocks.owner(cell));
-    }
-    mesh.node_owners.push_back(owner);
-    append_degrees(grid.vertex_lon_lat(), id - 1, mesh.node_lon_lat_deg);
+  std::vector<std::int32_t> node(static_cast<std::size_t>(grid.n_local(delos::Location::vertex)),
+                                 0);
+  const auto n_owned = static_cast<std::size_t>(grid.n_owned(delos::Location::cell));
+  for (std::size_t cell = 0; cell < n_owned; ++cell) {
+    mesh.element_ids.push_back(grid.global_id(delos::Location::cell)[cell] + 1);
+    mesh.area_m2.push_back(grid.cell_area_m2()[cell]);
+    mesh.spacing_m.push_back(grid.cell_spacing_m()[cell]);
+    mesh.element_area.push_back(grid.cell_area_m2()[cell] / unit_m2);
+    append_degrees(grid.cell_lon_lat(), cell, mesh.element_lon_lat_deg);
+    add_corners(grid, cell, node, mesh);
   }
   return mesh;
 }
@@ -127,6 +112,7 @@ delos::Time time_of(const delos_cap_time& time, int calendar) {
 struct delos_cap {
   std::optional<delos::Component> component;
   std::array<std::vector<Item>, 2> items;  // by intent
+  std::unique_ptr<delos::cap::Team> team;
   std::optional<Mesh> mesh;
   std::vector<std::string> imported;  // since the last advance
   std::int64_t generation = 0;        // of the mesh
@@ -139,6 +125,11 @@ struct delos_cap {
   const Mesh& made_mesh() const {
     if (!mesh) refuse("there is no mesh: realize comes first");
     return *mesh;
+  }
+  void check_count(const char* name, std::int64_t n_values) const {
+    if (static_cast<std::size_t>(n_values) == made_mesh().element_ids.size()) return;
+    refuse(std::string(name) + ": " + std::to_string(n_values) + " values for " +
+           std::to_string(mesh->element_ids.size()) + " elements");
   }
 };
 
@@ -176,6 +167,18 @@ void list_items(delos_cap& cap) {
   const delos::State exports = cap.live().export_state();
   for (const char* const name : kExports) {
     cap.items[DELOS_CAP_EXPORT].push_back({name, exports.field(name).units()});
+  }
+}
+
+/// On the process that has the grid.
+void advance(delos_cap& cap, const delos::Time& from, const delos::Time& until) {
+  delos::Component& component = *cap.component;
+  for (const std::string& name : cap.imported) component.import_state().field(name).stamp(from);
+  component.run(component.import_state(), component.export_state(),
+                delos::Clock({.start = from, .step = until - from}));
+  if (component.generation() != cap.generation) {
+    refuse("the grid was made anew (generation " + std::to_string(component.generation()) +
+           "), which fields on an ESMF mesh can't follow: switch remeshing off");
   }
 }
 
@@ -221,21 +224,22 @@ int delos_cap_get_item(delos_cap* cap, int intent, int index, delos_cap_item* it
   });
 }
 
-int delos_cap_realize(delos_cap* cap, int process, int n_processes) {
+int delos_cap_realize(delos_cap* cap, int communicator, int n_processes) {
   return guarded(cap, [&] {
-    if (process < 0 || process >= n_processes) {
-      cap->message = "process " + std::to_string(process) + " of " + std::to_string(n_processes) +
-                     ": processes count from 0";
-      return kArgBad;
-    }
-    cap->live().initialize(delos::InitializePhase::realize);
-    const delos::Grid grid = cap->live().grid();
-    if (grid.n_cells() < n_processes) {
-      refuse("the grid has " + std::to_string(grid.n_cells()) + " cells, fewer than the " +
-             std::to_string(n_processes) + " processes: give the component fewer");
-    }
-    cap->mesh = mesh_of(grid, process, n_processes);
-    cap->generation = grid.generation();
+    delos::Component& component = cap->live();
+    if (cap->mesh) return delos::kEsmfSuccess;
+    auto team = delos::cap::make_team(communicator, n_processes);
+    double unit_m2 = 0.0;
+    const delos::LocalGrid grid = team->spread([&] {
+      component.initialize(delos::InitializePhase::realize);
+      unit_m2 = unit_area_m2(component.grid());
+      return component.grid();
+    });
+    const double generation = team->shared(static_cast<double>(component.generation()));
+    unit_m2 = team->shared(unit_m2);
+    team->together([&] { cap->mesh = mesh_of(grid, unit_m2); });
+    cap->generation = static_cast<std::int64_t>(generation);
+    cap->team = std::move(team);
     return delos::kEsmfSuccess;
   });
 }
@@ -264,17 +268,15 @@ int delos_cap_get_export(delos_cap* cap, const char* name, double* values, int64
   return guarded(cap, [&] {
     const Mesh& mesh = cap->made_mesh();
     if (name == nullptr || values == nullptr) return kArgBad;
-    if (static_cast<std::size_t>(n_values) != mesh.element_ids.size()) {
-      refuse(std::string(name) + ": " + std::to_string(n_values) + " values for " +
-             std::to_string(mesh.element_ids.size()) + " elements");
-    }
-    const delos::State exports = cap->live().export_state();
-    if (!exports.contains(name)) return delos::kEsmfNotFound;
-    const delos::Field field = exports.field(name);
-    if (field.location() == delos::Location::grid) {
-      std::fill_n(values, n_values, field.data()[0]);
+    cap->check_count(name, n_values);
+    if (name == std::string_view(kExports[0])) {
+      std::copy(mesh.area_m2.begin(), mesh.area_m2.end(), values);
+    } else if (name == std::string_view(kExports[1])) {
+      std::copy(mesh.spacing_m.begin(), mesh.spacing_m.end(), values);
+    } else if (name == std::string_view(kExports[2])) {
+      std::fill_n(values, n_values, static_cast<double>(cap->generation));
     } else {
-      std::copy_n(field.data().begin() + mesh.first_cell, n_values, values);
+      return delos::kEsmfNotFound;
     }
     return delos::kEsmfSuccess;
   });
@@ -282,10 +284,17 @@ int delos_cap_get_export(delos_cap* cap, const char* name, double* values, int64
 
 int delos_cap_set_import(delos_cap* cap, const char* name, const double* values, int64_t n_values) {
   return guarded(cap, [&] {
-    if (name == nullptr || values == nullptr || n_values < 0) return kArgBad;
-    const delos::State imports = cap->live().import_state();
-    if (!imports.contains(name)) return delos::kEsmfNotFound;
-    imports.field(name).store({values, static_cast<std::size_t>(n_values)});
+    cap->made_mesh();
+    if (name == nullptr) return kArgBad;
+    if (!cap->live().import_state().contains(name)) return delos::kEsmfNotFound;
+    cap->team->together([&] {
+      if (values == nullptr) refuse(std::string(name) + ": the values are null");
+      cap->check_count(name, n_values);
+    });
+    const auto whole = cap->team->gather({values, static_cast<std::size_t>(n_values)});
+    cap->team->together([&] {
+      if (cap->team->is_first()) cap->live().import_state().field(name).store(whole);
+    });
     cap->imported.emplace_back(name);
     return delos::kEsmfSuccess;
   });
@@ -295,31 +304,22 @@ int delos_cap_advance(delos_cap* cap, const delos_cap_time* from, const delos_ca
                       int calendar) {
   return guarded(cap, [&] {
     if (from == nullptr || until == nullptr || calendar < 0 || calendar > 3) return kArgBad;
-    delos::Component& component = cap->live();
-    const delos::Time begin = time_of(*from, calendar);
-    const delos::Time end = time_of(*until, calendar);
-    for (const std::string& name : cap->imported) {
-      component.import_state().field(name).stamp(begin);
-    }
-    component.run(component.import_state(), component.export_state(),
-                  delos::Clock({.start = begin, .step = end - begin}));
+    cap->made_mesh();
+    cap->team->together([&] {
+      if (cap->team->is_first()) advance(*cap, time_of(*from, calendar), time_of(*until, calendar));
+    });
     cap->imported.clear();
-    if (component.generation() != cap->generation) {
-      refuse("the grid was made anew (generation " + std::to_string(component.generation()) +
-             "), which fields on an ESMF mesh can't follow: switch remeshing off");
-    }
     return delos::kEsmfSuccess;
   });
 }
 
-int64_t delos_cap_generation(const delos_cap* cap) {
-  return cap == nullptr || !cap->component ? 0 : cap->component->generation();
-}
+int64_t delos_cap_generation(const delos_cap* cap) { return cap == nullptr ? 0 : cap->generation; }
 
 int delos_cap_finalize(delos_cap* cap) {
   return guarded(cap, [&] {
     cap->live().finalize();
     cap->mesh.reset();
+    cap->team.reset();
     cap->generation = 0;
     cap->imported.clear();
     return delos::kEsmfSuccess;

@@ -52,17 +52,19 @@ const char* delos_cap_message(const delos_cap* cap);
 int delos_cap_advertise(delos_cap* cap);
 /* The index-th item, from 0; 41 (ESMF_RC_NOT_FOUND), without a message, after the last. */
 int delos_cap_get_item(delos_cap* cap, int intent, int index, delos_cap_item* item);
-/* Makes the grid, the whole of it on each process, and this process's part of the mesh. */
-int delos_cap_realize(delos_cap* cap, int process, int n_processes);
+/* Makes the grid on the first process and this process's part of the mesh. `communicator` is MPI's
+ * Fortran handle, the component's own; without MPI it is not looked at. Collective, as are
+ * set_import, advance and finalize: what fails on one process fails on all. */
+int delos_cap_realize(delos_cap* cap, int communicator, int n_processes);
 int delos_cap_get_mesh(delos_cap* cap, delos_cap_mesh* mesh);
 /* The process's values of an export, [n_elements]. */
 int delos_cap_get_export(delos_cap* cap, const char* name, double* values, int64_t n_values);
-/* An import on all elements by id, [n_values]; copied. */
+/* The process's values of an import, [n_elements]; copied. */
 int delos_cap_set_import(delos_cap* cap, const char* name, const double* values, int64_t n_values);
 /* From one time to a later one; `calendar` is 0 gregorian, 1 julian, 2 noleap, 3 360_day. */
 int delos_cap_advance(delos_cap* cap, const delos_cap_time* from, const delos_cap_time* until,
                       int calendar);
-/* Of the grid; 0 without one. */
+/* Of the grid, on every process; 0 without one. */
 int64_t delos_cap_generation(const delos_cap* cap);
 int delos_cap_finalize(delos_cap* cap);
 

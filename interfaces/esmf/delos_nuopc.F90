@@ -18,8 +18,7 @@ module delos_nuopc
   ! One component's own.
   type :: cap_state
     type(c_ptr) :: cap = c_null_ptr
-    integer :: n_elements = 0, verbosity = 0
-    integer, allocatable :: counts(:), offsets(:)  ! elements of every process
+    integer :: verbosity = 0
   end type
 
   type :: cap_wrap
@@ -65,10 +64,10 @@ module delos_nuopc
       integer(c_int), value :: intent, index
       type(cap_item), intent(out) :: item
     end function
-    integer(c_int) function cap_realize(cap, process, n_processes) bind(c, name="delos_cap_realize")
+    integer(c_int) function cap_realize(cap, communicator, n_processes) bind(c, name="delos_cap_realize")
       import
       type(c_ptr), value :: cap
-      integer(c_int), value :: process, n_processes
+      integer(c_int), value :: communicator, n_processes
     end function
     integer(c_int) function cap_get_mesh(cap, mesh) bind(c, name="delos_cap_get_mesh")
       import
@@ -169,15 +168,15 @@ contains
     type(ESMF_Mesh) :: mesh
     type(ESMF_Field) :: field
     character(len=name_length) :: name, units
-    integer :: intent, i, process, n_processes
+    integer :: intent, i, communicator, n_processes
     call own_state(gcomp, it, rc)
     if (failed(rc, __LINE__)) return
-    call ESMF_GridCompGet(gcomp, vm=vm, localPet=process, petCount=n_processes, rc=rc)
+    call ESMF_GridCompGet(gcomp, vm=vm, rc=rc)
     if (failed(rc, __LINE__)) return
-    if (refused(it, cap_realize(it%cap, process, n_processes), __LINE__, rc)) return
+    call ESMF_VMGet(vm, petCount=n_processes, mpiCommunicator=communicator, rc=rc)
+    if (failed(rc, __LINE__)) return
+    if (refused(it, cap_realize(it%cap, communicator, n_processes), __LINE__, rc)) return
     call make_mesh(it, mesh, rc)
-    if (failed(rc, __LINE__)) return
-    call count_elements(it, vm, n_processes, rc)
     if (failed(rc, __LINE__)) return
     call NUOPC_ModelGet(gcomp, importState=states(imports), exportState=states(exports), rc=rc)
     if (failed(rc, __LINE__)) return
@@ -221,17 +220,14 @@ contains
     type(ESMF_Clock) :: clock
     type(ESMF_Time) :: now
     type(ESMF_TimeInterval) :: step
-    type(ESMF_VM) :: vm
     type(cap_time) :: from, until
     integer(c_int) :: calendar
     call own_state(gcomp, it, rc)
     if (failed(rc, __LINE__)) return
-    call ESMF_GridCompGet(gcomp, vm=vm, rc=rc)
-    if (failed(rc, __LINE__)) return
     call NUOPC_ModelGet(gcomp, modelClock=clock, importState=states(imports), &
       exportState=states(exports), rc=rc)
     if (failed(rc, __LINE__)) return
-    call take_imports(it, vm, states(imports), rc)
+    call take_imports(it, states(imports), rc)
     if (failed(rc, __LINE__)) return
     call ESMF_ClockGet(clock, currTime=now, timeStep=step, rc=rc)
     if (failed(rc, __LINE__)) return
@@ -261,7 +257,7 @@ contains
   ! --- what the phases are made of
 
   subroutine make_mesh(it, mesh, rc)
-    type(cap_state), intent(inout) :: it
+    type(cap_state), intent(in) :: it
     type(ESMF_Mesh), intent(out) :: mesh
     integer, intent(out) :: rc
     type(cap_mesh) :: part
@@ -280,20 +276,6 @@ contains
       nodeIds=node_ids, nodeCoords=node_places, nodeOwners=owners, elementIds=ids, &
       elementTypes=corners, elementConn=nodes, elementArea=areas, elementCoords=places, rc=rc)
     if (failed(rc, __LINE__)) return
-    it%n_elements = part%n_elements
-  end subroutine
-
-  subroutine count_elements(it, vm, n_processes, rc)
-    type(cap_state), intent(inout) :: it
-    type(ESMF_VM), intent(in) :: vm
-    integer, intent(in) :: n_processes
-    integer, intent(out) :: rc
-    integer :: i
-    if (allocated(it%counts)) deallocate(it%counts, it%offsets)
-    allocate(it%counts(n_processes), it%offsets(n_processes))
-    call ESMF_VMAllGather(vm, [it%n_elements], it%counts, 1, rc=rc)
-    if (failed(rc, __LINE__)) return
-    it%offsets = [(sum(it%counts(:i - 1)), i = 1, n_processes)]
   end subroutine
 
   subroutine give_exports(it, state, rc)
@@ -321,19 +303,15 @@ contains
     end do
   end subroutine
 
-  ! Every process has the whole grid, so it gets the whole field, too.
-  subroutine take_imports(it, vm, state, rc)
+  subroutine take_imports(it, state, rc)
     type(cap_state), intent(in) :: it
-    type(ESMF_VM), intent(in) :: vm
     type(ESMF_State), intent(inout) :: state
     integer, intent(out) :: rc
     type(ESMF_Field) :: field
     character(len=name_length) :: name, units
     real(ESMF_KIND_R8), pointer :: values(:)
-    real(ESMF_KIND_R8), allocatable :: all_values(:)
     logical :: is_there
     integer :: i
-    allocate(all_values(sum(it%counts)))
     i = 0
     rc = ESMF_SUCCESS
     do while (has_item(it, imports, i, name, units))
@@ -343,11 +321,8 @@ contains
       if (.not. is_there) cycle
       call report(it, "import " // trim(name), values, units, rc)
       if (failed(rc, __LINE__)) return
-      call ESMF_VMAllGatherV(vm, sendData=values, sendCount=size(values), recvData=all_values, &
-        recvCounts=it%counts, recvOffsets=it%offsets, rc=rc)
-      if (failed(rc, __LINE__)) return
-      if (refused(it, cap_set_import(it%cap, trim(name) // c_null_char, all_values, &
-        int(size(all_values), c_int64_t)), __LINE__, rc)) return
+      if (refused(it, cap_set_import(it%cap, trim(name) // c_null_char, values, &
+        int(size(values), c_int64_t)), __LINE__, rc)) return
     end do
   end subroutine
 

@@ -8,9 +8,7 @@
 #include <cmath>
 #include <cstdint>
 #include <delos/delos.hpp>
-#include <map>
 #include <memory>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -31,6 +29,7 @@ constexpr std::array kExports = {"cell_area", "cell_spacing", "grid_generation"}
 constexpr int kArgValue = 9;   // ESMF_RC_ARG_VALUE
 constexpr int kNotValid = 42;  // ESMF_RC_NOT_VALID
 constexpr int kNotFound = 41;  // ESMF_RC_NOT_FOUND
+constexpr int kNoCommunicator = 0;
 constexpr int kGregorian = 0;
 constexpr int kNoleap = 2;
 
@@ -39,55 +38,42 @@ struct Destroy {
 };
 using Cap = std::unique_ptr<delos_cap, Destroy>;
 
-/// The phases on all processes, one after another.
+/// One process, in NUOPC's order of phases.
 class Driver {
  public:
-  explicit Driver(int n_processes) {
-    const std::string config = folder_.write("grid.yaml", kYaml);
-    for (int i = 0; i < n_processes; ++i) {
-      delos_cap* cap = nullptr;
-      REQUIRE(delos_cap_create(config.c_str(), &cap) == 0);
-      caps_.emplace_back(cap);
-    }
+  Driver() {
+    delos_cap* cap = nullptr;
+    REQUIRE(delos_cap_create(folder_.write("grid.yaml", kYaml).c_str(), &cap) == 0);
+    cap_.reset(cap);
   }
-  int size() const { return static_cast<int>(caps_.size()); }
-  delos_cap* cap(int process) { return caps_[static_cast<std::size_t>(process)].get(); }
-
-  void advertise() {
-    for (int i = 0; i < size(); ++i) REQUIRE(delos_cap_advertise(cap(i)) == 0);
-  }
-  void realize() {
-    for (int i = 0; i < size(); ++i) REQUIRE(delos_cap_realize(cap(i), i, size()) == 0);
-  }
+  delos_cap* cap() { return cap_.get(); }
   void initialize() {
-    advertise();
-    realize();
+    REQUIRE(delos_cap_advertise(cap()) == 0);
+    REQUIRE_MESSAGE(delos_cap_realize(cap(), kNoCommunicator, 1) == 0, delos_cap_message(cap()));
   }
-  delos_cap_mesh mesh(int process) {
+  delos_cap_mesh mesh() {
     delos_cap_mesh out = {};
-    REQUIRE(delos_cap_get_mesh(cap(process), &out) == 0);
+    REQUIRE(delos_cap_get_mesh(cap(), &out) == 0);
     return out;
   }
-  /// An export of all processes, in their order.
-  std::vector<double> gathered(const char* name) {
-    std::vector<double> all;
-    for (int i = 0; i < size(); ++i) {
-      std::vector<double> part(static_cast<std::size_t>(mesh(i).n_elements));
-      REQUIRE(delos_cap_get_export(cap(i), name, part.data(), mesh(i).n_elements) == 0);
-      all.insert(all.end(), part.begin(), part.end());
-    }
-    return all;
+  std::vector<double> exported(const char* name) {
+    std::vector<double> values(static_cast<std::size_t>(mesh().n_elements));
+    REQUIRE(delos_cap_get_export(cap(), name, values.data(), mesh().n_elements) == 0);
+    return values;
+  }
+  void import(const char* name, const std::vector<double>& values) {
+    const int code =
+        delos_cap_set_import(cap(), name, values.data(), static_cast<std::int64_t>(values.size()));
+    REQUIRE_MESSAGE(code == 0, delos_cap_message(cap()));
   }
   void advance(const delos_cap_time& from, const delos_cap_time& until) {
-    for (int i = 0; i < size(); ++i) {
-      const int code = delos_cap_advance(cap(i), &from, &until, kGregorian);
-      REQUIRE_MESSAGE(code == 0, delos_cap_message(cap(i)));
-    }
+    const int code = delos_cap_advance(cap(), &from, &until, kGregorian);
+    REQUIRE_MESSAGE(code == 0, delos_cap_message(cap()));
   }
 
  private:
   delos::testing::TemporaryFolder folder_;
-  std::vector<Cap> caps_;
+  Cap cap_;
 };
 
 delos_cap_time day(int number) { return {2000, 2, number, 0, 0, 0, 0, 1}; }
@@ -109,36 +95,6 @@ double sum(std::span<const double> values) {
   double total = 0.0;
   for (const double value : values) total += value;
   return total;
-}
-
-/// What the processes' meshes are together.
-struct Whole {
-  std::set<std::int32_t> elements;
-  std::map<std::int32_t, std::int32_t> node_owner;
-  std::map<std::int32_t, std::set<int>> node_processes;
-  std::map<std::int32_t, std::array<double, 2>> node_place;
-  double area = 0.0;
-  bool agree = true;  ///< on owners and places of nodes
-};
-
-Whole put_together(Driver& driver) {
-  Whole whole;
-  for (int process = 0; process < driver.size(); ++process) {
-    const auto mesh = driver.mesh(process);
-    for (int i = 0; i < mesh.n_elements; ++i) {
-      whole.agree = whole.agree && whole.elements.insert(mesh.element_ids[i]).second;
-      whole.area += mesh.element_area[i];
-    }
-    for (int i = 0; i < mesh.n_nodes; ++i) {
-      const auto id = mesh.node_ids[i];
-      const std::array place = {mesh.node_lon_lat_deg[2 * i], mesh.node_lon_lat_deg[2 * i + 1]};
-      const auto owner = whole.node_owner.emplace(id, mesh.node_owners[i]).first->second;
-      const auto known = whole.node_place.emplace(id, place).first->second;
-      whole.agree = whole.agree && owner == mesh.node_owners[i] && known == place;
-      whole.node_processes[id].insert(process);
-    }
-  }
-  return whole;
 }
 
 void check_elements(const delos_cap_mesh& mesh) {
@@ -163,90 +119,73 @@ void check_elements(const delos_cap_mesh& mesh) {
 }  // namespace
 
 TEST_CASE("the cap advertises its fields with units before there is a grid") {
-  Driver driver(1);
-  driver.advertise();
+  Driver driver;
+  REQUIRE(delos_cap_advertise(driver.cap()) == 0);
   delos_cap_item item = {};
   for (int i = 0; i < 3; ++i) {
-    REQUIRE(delos_cap_get_item(driver.cap(0), DELOS_CAP_IMPORT, i, &item) == 0);
+    REQUIRE(delos_cap_get_item(driver.cap(), DELOS_CAP_IMPORT, i, &item) == 0);
     CHECK(std::string(item.name) == kImports[static_cast<std::size_t>(i)]);
     CHECK(std::string(item.units) == (i < 2 ? "m s-1" : "m2 s-2"));
-    REQUIRE(delos_cap_get_item(driver.cap(0), DELOS_CAP_EXPORT, i, &item) == 0);
+    REQUIRE(delos_cap_get_item(driver.cap(), DELOS_CAP_EXPORT, i, &item) == 0);
     CHECK(std::string(item.name) == kExports[static_cast<std::size_t>(i)]);
   }
-  CHECK(delos_cap_get_item(driver.cap(0), DELOS_CAP_IMPORT, 3, &item) == kNotFound);
-  CHECK(delos_cap_get_item(driver.cap(0), DELOS_CAP_EXPORT, 3, &item) == kNotFound);
-  CHECK(delos_cap_generation(driver.cap(0)) == 0);
+  CHECK(delos_cap_get_item(driver.cap(), DELOS_CAP_IMPORT, 3, &item) == kNotFound);
+  CHECK(delos_cap_get_item(driver.cap(), DELOS_CAP_EXPORT, 3, &item) == kNotFound);
+  CHECK(delos_cap_generation(driver.cap()) == 0);
 }
 
-TEST_CASE("the cap's meshes are one grid on any number of processes") {
-  Driver alone(1);
-  alone.initialize();
-  const Whole whole = put_together(alone);
-  const auto area_m2 = alone.gathered("cell_area");
-  const auto n_cells = static_cast<std::int32_t>(area_m2.size());
-  CHECK(std::abs(sum(area_m2) / (4.0 * kPi * kRadius_m * kRadius_m) - 1.0) < 1e-13);
-  CHECK(std::abs(whole.area / (4.0 * kPi) - 1.0) < 1e-13);
-  for (const int n_processes : {1, 2, 5}) {
-    CAPTURE(n_processes);
-    Driver driver(n_processes);
-    driver.initialize();
-    const Whole parts = put_together(driver);
-    CHECK(parts.agree);
-    CHECK(parts.elements.size() == area_m2.size());
-    CHECK(*parts.elements.begin() == 1);
-    CHECK(*parts.elements.rbegin() == n_cells);
-    CHECK(parts.node_owner.size() == 2 * area_m2.size() - 4);  // Euler
-    CHECK(parts.node_place == whole.node_place);
-    bool owners_have_theirs = true;
-    for (const auto& [id, owner] : parts.node_owner) {
-      owners_have_theirs = owners_have_theirs && parts.node_processes.at(id).count(owner) == 1;
-    }
-    CHECK(owners_have_theirs);
-    for (int i = 0; i < n_processes; ++i) check_elements(driver.mesh(i));
-    CHECK(driver.gathered("cell_area") == area_m2);
-    CHECK(driver.gathered("grid_generation") == std::vector<double>(area_m2.size(), 1.0));
-  }
-}
-
-TEST_CASE("the cap's areas and places are those of the C++ grid") {
-  Driver driver(2);
+TEST_CASE("the cap's mesh is the C++ grid") {
+  Driver driver;
   driver.initialize();
   const delos::Grid grid = delos::generate(delos::Config::from_text(kYaml));
-  const auto area_m2 = driver.gathered("cell_area");
-  const auto spacing_m = driver.gathered("cell_spacing");
-  REQUIRE(static_cast<std::int64_t>(area_m2.size()) == grid.n_cells());
-  for (std::size_t i = 0; i < area_m2.size(); ++i) {
-    REQUIRE(area_m2[i] == grid.cell_area_m2()[i]);
-    REQUIRE(spacing_m[i] == grid.cell_spacing_m()[i]);
+  const auto mesh = driver.mesh();
+  REQUIRE(mesh.n_elements == grid.n_cells());
+  REQUIRE(mesh.n_nodes == grid.n_vertices());
+  REQUIRE(mesh.n_corners == 2 * grid.n_edges());
+  const auto area_m2 = driver.exported("cell_area");
+  const auto spacing_m = driver.exported("cell_spacing");
+  double area = 0.0;
+  for (std::int32_t i = 0; i < mesh.n_elements; ++i) {
+    const auto cell = static_cast<std::size_t>(i);
+    REQUIRE(mesh.element_ids[i] == i + 1);
+    REQUIRE(area_m2[cell] == grid.cell_area_m2()[cell]);
+    REQUIRE(spacing_m[cell] == grid.cell_spacing_m()[cell]);
+    REQUIRE(mesh.element_lon_lat_deg[2 * i] * kRadPerDeg ==
+            doctest::Approx(grid.cell_lon_lat()[2 * cell]).epsilon(1e-14));
+    area += mesh.element_area[i];
   }
-  const auto mesh = driver.mesh(1);
-  const auto cell = static_cast<std::size_t>(mesh.element_ids[0] - 1);
-  CHECK(mesh.element_lon_lat_deg[0] ==
-        doctest::Approx(grid.cell_lon_lat()[2 * cell] / kRadPerDeg).epsilon(1e-14));
-  CHECK(mesh.element_area[0] ==
-        doctest::Approx(grid.cell_area_m2()[cell] / (kRadius_m * kRadius_m)).epsilon(1e-14));
+  for (std::int32_t i = 0; i < mesh.n_corners; ++i) {
+    const auto vertex = grid.vertices_on_cell()[static_cast<std::size_t>(i)];
+    REQUIRE(mesh.node_ids[mesh.element_nodes[i] - 1] == vertex + 1);
+  }
+  for (std::int32_t i = 0; i < mesh.n_nodes; ++i) {
+    const auto vertex = static_cast<std::size_t>(mesh.node_ids[i] - 1);
+    REQUIRE(mesh.node_owners[i] == 0);
+    REQUIRE(mesh.node_lon_lat_deg[2 * i + 1] * kRadPerDeg ==
+            doctest::Approx(grid.vertex_lon_lat()[2 * vertex + 1]).epsilon(1e-14));
+  }
+  check_elements(mesh);
+  CHECK(std::abs(area / (4.0 * kPi) - 1.0) < 1e-13);
+  CHECK(std::abs(sum(area_m2) / (4.0 * kPi * kRadius_m * kRadius_m) - 1.0) < 1e-13);
+  CHECK(driver.exported("grid_generation") == std::vector<double>(area_m2.size(), 1.0));
 }
 
 TEST_CASE("the cap goes from step to step with imports and ends") {
-  Driver driver(2);
+  Driver driver;
   driver.initialize();
-  const std::vector<double> energy(driver.gathered("cell_area").size(), 0.02);
+  const std::vector<double> energy(driver.exported("cell_area").size(), 0.02);
   for (const int from : {27, 28}) {
-    for (int i = 0; i < driver.size(); ++i) {
-      REQUIRE(delos_cap_set_import(driver.cap(i), kImports[2], energy.data(),
-                                   static_cast<std::int64_t>(energy.size())) == 0);
-    }
+    driver.import(kImports[2], energy);
     driver.advance(day(from), day(from + 1));
   }
-  const auto area_m2 = driver.gathered("cell_area");
-  for (int i = 0; i < driver.size(); ++i) {
-    REQUIRE(delos_cap_finalize(driver.cap(i)) == 0);
-    CHECK(delos_cap_generation(driver.cap(i)) == 0);
-  }
+  const auto area_m2 = driver.exported("cell_area");
+  REQUIRE(delos_cap_finalize(driver.cap()) == 0);
+  CHECK(delos_cap_generation(driver.cap()) == 0);
   // Once more, with the next generation.
   driver.initialize();
-  CHECK(delos_cap_generation(driver.cap(0)) == 2);
-  CHECK(driver.gathered("cell_area") == area_m2);
+  CHECK(delos_cap_generation(driver.cap()) == 2);
+  CHECK(driver.exported("grid_generation")[0] == 2.0);
+  CHECK(driver.exported("cell_area") == area_m2);
 }
 
 TEST_CASE("the cap refuses wrong calls with ESMF's codes and a text") {
@@ -261,31 +200,31 @@ TEST_CASE("the cap refuses wrong calls with ESMF's codes and a text") {
   delos_cap_destroy(raw);
   delos_cap_destroy(nullptr);
 
-  Driver driver(1);
-  delos_cap* const cap = driver.cap(0);
+  Driver driver;
+  delos_cap* const cap = driver.cap();
   delos_cap_mesh mesh = {};
   double value = 0.0;
   const auto says = [&](const char* part) {
     return std::string(delos_cap_message(cap)).find(part) != std::string::npos;
   };
-  CHECK(delos_cap_realize(cap, 0, 1) == kNotValid);
+  CHECK(delos_cap_realize(cap, kNoCommunicator, 1) == kNotValid);
   CHECK(says("initialize(advertise)"));
-  driver.advertise();
+  CHECK(delos_cap_advertise(cap) == 0);
   CHECK(delos_cap_get_mesh(cap, &mesh) == kNotValid);
   CHECK(says("realize"));
-  CHECK(delos_cap_realize(cap, 0, 1000000) == kNotValid);
-  CHECK(says("processes"));
-  CHECK(delos_cap_realize(cap, 1, 1) != 0);
-  driver.realize();
-  const auto n = driver.mesh(0).n_elements;
+  CHECK(delos_cap_set_import(cap, kImports[0], &value, 1) == kNotValid);
+  CHECK(delos_cap_realize(cap, kNoCommunicator, 2) == kArgValue);
+  CHECK(says("2 processes"));
+  driver.initialize();
+  const auto n = driver.mesh().n_elements;
   std::vector<double> values(static_cast<std::size_t>(n), 0.0);
   CHECK(delos_cap_get_export(cap, "cell_area", &value, 1) == kNotValid);
   CHECK(delos_cap_get_export(cap, "cell_volume", values.data(), n) == kNotFound);
   CHECK(delos_cap_set_import(cap, "cell_volume", values.data(), n) == kNotFound);
-  CHECK(delos_cap_set_import(cap, kImports[0], &value, 1) != 0);
+  CHECK(delos_cap_set_import(cap, kImports[0], &value, 1) == kNotValid);
   CHECK(says(kImports[0]));
-  driver.advance(day(3), day(4));
   const auto from = day(3), until = day(4);
+  driver.advance(from, until);
   CHECK(delos_cap_advance(cap, &from, &until, kGregorian) == kNotValid);
   CHECK(says("2000-02-04"));
   CHECK(delos_cap_advance(cap, &until, &from, kGregorian) != 0);
