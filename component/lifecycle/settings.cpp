@@ -59,7 +59,7 @@ void read_surface(MapReader keys, Settings& out) {
 
 /// Baselines have one spacing everywhere, from `subdivisions` or `spacing`.
 void read_baseline(MapReader& root, const char* generator, Settings& out) {
-  for (const char* const key : {"sizing", "bathymetry", "refine", "relax"}) {
+  for (const char* const key : {"sizing", "bathymetry", "refine", "relax", "remesh"}) {
     if (root.has(key)) {
       root.fail(key, "is not used by generator: ", generator,
                 ", which takes `subdivisions` or `spacing` only.");
@@ -173,7 +173,8 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   ConfigNode effective;
   MapReader root(root_node, "", effective,
                  {"title", "surface", "generator", "subdivisions", "spacing", "sizing",
-                  "bathymetry", "refine", "relax", "output", "require", "threads", "data_path"});
+                  "bathymetry", "refine", "relax", "output", "require", "remesh", "threads",
+                  "data_path"});
   out.title = root.string("title", "");
   read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
   constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,
@@ -191,6 +192,10 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
     out.refine = read_refine(root.map("refine", {"radius_edge", "size_ratio", "tile_vertices"}));
     out.relax = read_relax(
         root.map("relax", {"spring_rounds", "polish_rounds", "target_quality", "repair"}));
+    out.remesh = read_remesh(root, out.surface.scale_m());
+    if (out.remesh && out.sizing.recipe.combine.rule == CombineRule::blend) {
+      root.fail("remesh", "its sources can't be blended: set sizing.combine to min or max.");
+    }
   } else {
     read_baseline(root, out.generator == Generator::icosahedral ? "icosahedral" : "cubed_sphere",
                   out);

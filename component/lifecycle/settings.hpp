@@ -8,6 +8,7 @@
 
 #include "geometry/ellipsoid.hpp"
 #include "io/rasters.hpp"
+#include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
 #include "refine/refine.hpp"
@@ -82,6 +83,7 @@ struct Settings {
   RelaxOptions relax;
   OutputSettings output;
   RequireSettings require;
+  std::optional<RemeshSettings> remesh;  ///< without it the grid stays
   int threads = 0;
   /// The effective configuration (defaults and overrides included) as YAML, without `threads` and
   /// the output's folder: what the grid depends on.

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "io/names.hpp"
@@ -185,7 +186,8 @@ void read_rossby(const SourceReader& in) {
   in.out.source.source = source;
 }
 
-/// The amplitude is a speed (EKE) or a height (variance of sea surface height).
+/// The amplitude is a speed (EKE), a height (variance of sea surface height), or of the user's
+/// unit.
 double threshold_amplitude(MapReader& keys, Dimension amplitude) {
   const ConfigNode* const node = keys.find("threshold");
   const bool is_energy = amplitude == Dimension::speed && node != nullptr &&
@@ -195,51 +197,45 @@ double threshold_amplitude(MapReader& keys, Dimension amplitude) {
   return is_energy ? std::sqrt(2.0 * value) : value;
 }
 
-void read_eddy_form(const SourceReader& in, Dimension amplitude, EddySource& source) {
-  if (in.keys.choice("form", {"linear", "threshold"}, "linear") == 1) {
-    EddyThreshold form;
-    form.amplitude = threshold_amplitude(in.keys, amplitude);
-    form.spacing_below_m = spacing(in.keys, "spacing_below");
-    form.spacing_above_m = spacing(in.keys, "spacing_above");
-    source.form = form;
-    return;
-  }
+EddyLinear read_linear(MapReader& keys, Dimension amplitude) {
+  // What has a unit has values for an ocean; other amplitudes must be given.
   const bool is_speed = amplitude == Dimension::speed;
+  if (amplitude == Dimension::none) {
+    for (const char* const key : {"quiet", "energetic"}) {
+      if (!keys.has(key)) keys.fail(key, "give [amplitude, spacing], e.g. [1e-12, 60 km].");
+    }
+  }
   EddyLinear form;
-  std::tie(form.quiet_amplitude, form.quiet_spacing_m) = in.keys.pair(
-      "quiet", amplitude, Dimension::length, {is_speed ? "0.05 m/s" : "0.02 m", "60 km"});
-  std::tie(form.energetic_amplitude, form.energetic_spacing_m) = in.keys.pair(
+  std::tie(form.quiet_amplitude, form.quiet_spacing_m) =
+      keys.pair("quiet", amplitude, Dimension::length, {is_speed ? "0.05 m/s" : "0.02 m", "60 km"});
+  std::tie(form.energetic_amplitude, form.energetic_spacing_m) = keys.pair(
       "energetic", amplitude, Dimension::length, {is_speed ? "0.45 m/s" : "0.3 m", "10 km"});
   if (form.energetic_amplitude <= form.quiet_amplitude) {
-    in.keys.fail("energetic", "its amplitude must be above that of `quiet`.");
+    keys.fail("energetic", "its amplitude must be above that of `quiet`.");
   }
+  return form;
+}
+
+void read_eddy_form(MapReader& keys, Dimension amplitude, EddySource& source) {
+  if (keys.choice("form", {"linear", "threshold"}, "linear") == 0) {
+    source.form = read_linear(keys, amplitude);
+    return;
+  }
+  EddyThreshold form;
+  form.amplitude = threshold_amplitude(keys, amplitude);
+  form.spacing_below_m = spacing(keys, "spacing_below");
+  form.spacing_above_m = spacing(keys, "spacing_above");
   source.form = form;
 }
 
 void read_eke(const SourceReader& in) {
   in.out.field = field_request(in.keys, "m2 s-2");
-  EddySource source;
-  source.quantity = EddyQuantity::kinetic_energy;
-  read_eddy_form(in, Dimension::speed, source);
-  source.fill_amplitude =
-      in.keys.quantity("fill_speed", Dimension::speed, Bounds::not_negative(), "0.03 m/s");
-  source.max_energy = in.keys.quantity("clamp", Dimension::energy, Bounds::positive(), "0.5 m2/s2");
-  source.smooth_rad = read_arc(in.keys, "smooth", in.radius_m, "0 deg");
-  in.out.source.source = source;
+  in.out.source.source = read_eddy_law(in.keys, EddyQuantity::kinetic_energy, in.radius_m);
 }
 
 void read_ssh_variability(const SourceReader& in) {
   in.out.field = field_request(in.keys, "m2");
-  EddySource source;
-  source.quantity = EddyQuantity::height_variance;
-  read_eddy_form(in, Dimension::length, source);
-  source.fill_amplitude =
-      in.keys.quantity("fill_height", Dimension::length, Bounds::not_negative(), "0.01 m");
-  const double max_height =
-      in.keys.quantity("clamp", Dimension::length, Bounds::positive(), "0.7 m");
-  source.max_energy = max_height * max_height;
-  source.smooth_rad = read_arc(in.keys, "smooth", in.radius_m, "0 deg");
-  in.out.source.source = source;
+  in.out.source.source = read_eddy_law(in.keys, EddyQuantity::height_variance, in.radius_m);
 }
 
 struct SourceType {
@@ -371,6 +367,37 @@ bool uses_bathymetry(const SourceSettings& settings) {
 }
 
 }  // namespace
+
+EddySource read_eddy_law(MapReader& keys, EddyQuantity quantity, double radius_m) {
+  EddySource source;
+  source.quantity = quantity;
+  const auto fill = [&](const char* key, Dimension dimension, const char* fallback) {
+    return keys.quantity(key, dimension, Bounds::not_negative(), fallback);
+  };
+  switch (quantity) {
+    case EddyQuantity::kinetic_energy:
+      read_eddy_form(keys, Dimension::speed, source);
+      source.fill_amplitude = fill("fill_speed", Dimension::speed, "0.03 m/s");
+      source.max_energy =
+          keys.quantity("clamp", Dimension::energy, Bounds::positive(), "0.5 m2/s2");
+      break;
+    case EddyQuantity::height_variance: {
+      read_eddy_form(keys, Dimension::length, source);
+      source.fill_amplitude = fill("fill_height", Dimension::length, "0.01 m");
+      const double max_m = keys.quantity("clamp", Dimension::length, Bounds::positive(), "0.7 m");
+      source.max_energy = max_m * max_m;
+      break;
+    }
+    case EddyQuantity::amplitude:
+      read_eddy_form(keys, Dimension::none, source);
+      source.fill_amplitude = fill("fill", Dimension::none, "0");
+      source.max_energy = keys.optional_quantity("clamp", Dimension::none, Bounds::positive())
+                              .value_or(std::numeric_limits<double>::max());
+      break;
+  }
+  source.smooth_rad = read_arc(keys, "smooth", radius_m, "0 deg");
+  return source;
+}
 
 double read_arc(MapReader& reader, const std::string& key, double radius_m, const char* fallback) {
   const ConfigNode* const node = reader.find(key);

@@ -11,10 +11,12 @@ namespace delos {
 namespace {
 
 double amplitude_of(EddyQuantity quantity, double energy) {
+  if (quantity == EddyQuantity::amplitude) return energy;
   return std::sqrt(quantity == EddyQuantity::kinetic_energy ? 2.0 * energy : energy);
 }
 
 double energy_of(EddyQuantity quantity, double amplitude) {
+  if (quantity == EddyQuantity::amplitude) return amplitude;
   return amplitude * amplitude * (quantity == EddyQuantity::kinetic_energy ? 0.5 : 1.0);
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Spacing from what a model or an altimeter saw: eddy kinetic energy or the variance of sea
-// surface height (Sein et al. 2016, doi:10.1002/2016MS000650).
+// surface height (Sein et al. 2016, doi:10.1002/2016MS000650), or any amplitude of a model's own.
 #include <memory>
 #include <variant>
 
@@ -12,8 +12,9 @@
 namespace delos {
 
 /// What the field holds: EKE in m2/s2 (amplitude u_rms = sqrt(2 EKE) in m/s), or the variance of
-/// sea surface height in m2 (amplitude = standard deviation in m).
-enum class EddyQuantity { kinetic_energy, height_variance };
+/// sea surface height in m2 (amplitude = standard deviation in m), or the amplitude itself, >= 0,
+/// in any unit (|grad vorticity| in 1/(m s), say).
+enum class EddyQuantity { kinetic_energy, height_variance, amplitude };
 
 /// Spacing straight in the amplitude between two points, constant beyond them.
 struct EddyLinear {
@@ -33,7 +34,7 @@ struct EddySource {
   std::variant<EddyLinear, EddyThreshold> form;
   double fill_amplitude = 0.03;  ///< where the field is missing (ice, poles, equator band)
   double smooth_rad = 0.0;       ///< Gaussian sigma applied to the valid values first; 0 = none
-  double max_energy = 0.5;       ///< values above are then taken as this (m2/s2 or m2)
+  double max_energy = 0.5;       ///< values above are then taken as this (m2/s2, m2, the unit)
 };
 
 void fill_eddies(parallel::Executor& exec, const EddySource& source, LatLonField& field);
