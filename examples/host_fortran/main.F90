@@ -1,11 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
-! A Fortran model that makes its grid when it starts: no file between configuration and arrays.
+! A Fortran model that makes its grid when it starts and takes delos along as a component: no file
+! between configuration and arrays.
 program host_fortran
   use, intrinsic :: iso_fortran_env, only: error_unit
   use delos
   implicit none
   type(delos_config) :: config
+  type(delos_component) :: component
+  type(delos_clock) :: clock
   type(delos_grid) :: grid
+  real(c_double), allocatable, target :: u_m_s(:)
   character(len=4096) :: path
   integer :: ierr
 
@@ -16,10 +20,17 @@ program host_fortran
   call get_command_argument(1, path)
   call config%from_file(path, ierr)
   call check(ierr, config%message())
-  call grid%generate(config, ierr=ierr)
-  call check(ierr, grid%message())
+  call component%create(config, ierr=ierr)
+  call check(ierr, component%message())
+  call component%initialize(ierr)
+  call check(ierr, component%message())
+  call component%get_grid(grid, ierr)
+  call check(ierr, component%message())
   call use_grid()
+  call simulate()
   call grid%destroy()
+  call component%destroy()
+  call clock%destroy()
   call config%destroy()
 
 contains
@@ -48,5 +59,40 @@ contains
     print "(a, es17.10e2, a)", "total area: ", sum(area_m2), " m2"
     print "(a, i0, a, i0, a, f0.1, a)", "closest cells: ", cells_on_edge(1, shortest), " and ", &
       cells_on_edge(2, shortest), ", ", distance_m(shortest)/1000, " km"
+  end subroutine
+
+  ! The model's clock loop: its velocity goes to the component without a copy.
+  subroutine simulate()
+    type(delos_state) :: imports, exports
+    type(delos_field) :: field
+    real(c_double), pointer :: lat_deg(:)
+    integer :: weekly
+    imports = component%import_state()
+    exports = component%export_state()
+    field = imports%field("surface_eastward_sea_water_velocity", ierr)
+    call check(ierr, imports%message())
+    allocate (u_m_s(field%n_points()), source=0d0)
+    call field%bind(u_m_s, ierr)
+    call check(ierr, field%message())
+    call clock%create("2000-02-28", "P1D", stop="2000-03-14", calendar="noleap", ierr=ierr)
+    call check(ierr, clock%message())
+    weekly = clock%add_alarm(interval="P7D", ierr=ierr)
+    call check(ierr, clock%message())
+    do while (.not. clock%is_done())
+      field = exports%field("cell_latitude", ierr)          ! taken where it is used
+      call check(ierr, exports%message())
+      lat_deg => field%data(ierr)
+      call check(ierr, field%message())
+      u_m_s = u_m_s + 1d-3*(45 - lat_deg)/45
+      call component%run(imports, exports, clock, ierr)
+      call check(ierr, component%message())
+      call clock%advance(ierr)
+      call check(ierr, clock%message())
+      if (.not. clock%is_ringing(weekly)) cycle
+      call clock%ringer_off(weekly)
+      print "(2a, f0.4, a)", clock%current(), ": ", u_m_s(1), " m/s in the first cell"
+    end do
+    call component%finalize(ierr)
+    call check(ierr, component%message())
   end subroutine
 end program
