@@ -29,8 +29,8 @@ std::vector<Index> scattered(const Grid& grid, Index n_parts, std::uint64_t seed
 
 std::vector<Subgrid> cut_all(const Grid& grid, const std::vector<Index>& part, CutOptions options) {
   Cutter cutter(grid, part, options);
-  std::vector<Subgrid> out;
-  for (Index p = 0; p < options.n_parts; ++p) out.push_back(cutter.cut(p));
+  std::vector<Subgrid> out(at(options.n_parts));
+  for (Index p = 0; p < options.n_parts; ++p) out[at(p)] = cutter.cut(p);
   return out;
 }
 
@@ -241,8 +241,8 @@ void check_subgrids(const Grid& grid, const std::vector<Index>& part, const CutO
   for (const Subgrid& sub : subgrids) {
     CAPTURE(sub.part);
     const auto steps = steps_from(grid, part, sub.part);
-    std::vector<Index> cell_layer;
-    for (const Index s : steps) cell_layer.push_back(s <= options.n_halo_layers ? s : -1);
+    std::vector<Index> cell_layer = steps;
+    for (Index& s : cell_layer) s = s <= options.n_halo_layers ? s : -1;
     check_layers(sub.cells, cell_layer);
     check_layers(sub.edges, layers_of(grid.cells_on_edge, part, steps, sub));
     check_layers(sub.vertices, layers_of(grid.cells_on_vertex, part, steps, sub));
