@@ -44,6 +44,8 @@ function(delos_mpi_test name n_processes)
   # Open MPI wants these, as root and with more processes than cores.
   set(open_mpi OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe)
+  # MPICH's transports lose a kilobyte in modules that they have unloaded, which no suppression names.
+  set(sanitizers $<$<BOOL:${DELOS_SANITIZE}>:ASAN_OPTIONS=detect_leaks=0>)
   set_tests_properties("${name}" PROPERTIES LABELS mpi TIMEOUT 60 PROCESSORS 2
-    ENVIRONMENT "${open_mpi}")
+    ENVIRONMENT "${open_mpi};${sanitizers}")
 endfunction()
