@@ -8,7 +8,8 @@
 namespace delos::remap {
 namespace {
 
-// A corner this near to a side lies on it: positions are good to a few units of 1.1e-16.
+// A corner this near to a side, in a length that is right within a factor of two (the sum of the
+// line's coordinates), lies on it: positions are good to a few units of 1.1e-16.
 constexpr double kOnSide = 1e-15;
 // A side shorter than this has no direction of its own (four cocircular cells) and cuts nothing.
 constexpr double kShortest = 1e-13;
@@ -75,23 +76,23 @@ std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon
   for (std::size_t k = 0; k < clipping_.size(); ++k) {
     const Vec3& from = clipping_[k == 0 ? clipping_.size() - 1 : k - 1];
     const Vec3 line = from.cross(clipping_[k]);
-    const double length = line.norm();
+    const double length = line.cwiseAbs().sum();
     // A side that runs backwards, where the grid folds by a trifle, cuts nothing either.
     if (length < kShortest || !(line.dot(centre) > 0.0)) continue;
-    if (!cut(line / length, static_cast<Index>(k))) return {};
+    if (!cut(line, kOnSide * length, static_cast<Index>(k))) return {};
   }
   return current_;
 }
 
 // Sutherland & Hodgman 1974 (doi:10.1145/360767.360802): keeps what lies left of the line.
-bool Clipper::cut(const Vec3& line, Index side) {
+bool Clipper::cut(const Vec3& line, double on_side, Index side) {
   distance_.resize(current_.size());
   bool any_inside = false, any_outside = false;
   for (std::size_t k = 0; k < current_.size(); ++k) {
     const double d = (line.x() * current_[k].x + line.y() * current_[k].y) + line.z();
     distance_[k] = d;
-    any_inside |= d > kOnSide;
-    any_outside |= d < -kOnSide;
+    any_inside |= d > on_side;
+    any_outside |= d < -on_side;
   }
   if (!any_inside || !any_outside) return any_inside;
   next_.clear();
@@ -99,11 +100,11 @@ bool Clipper::cut(const Vec3& line, Index side) {
     const std::size_t l = k + 1 == current_.size() ? 0 : k + 1;
     const Corner &p = current_[k], &q = current_[l];
     const double from = distance_[k], to = distance_[l];
-    const bool leaves = to < -kOnSide;
-    if (from >= -kOnSide) {
-      next_.push_back({p.x, p.y, leaves && from <= kOnSide ? side : p.side});
+    const bool leaves = to < -on_side;
+    if (from >= -on_side) {
+      next_.push_back({p.x, p.y, leaves && from <= on_side ? side : p.side});
     }
-    if ((from > kOnSide && leaves) || (from < -kOnSide && to > kOnSide)) {
+    if ((from > on_side && leaves) || (from < -on_side && to > on_side)) {
       const double t = from / (from - to);
       next_.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), leaves ? side : p.side});
     }

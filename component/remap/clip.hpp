@@ -53,7 +53,7 @@ class Clipper {
   Vec3 middle(const Ellipsoid& surface, std::span<const Corner> corners) const;
 
  private:
-  bool cut(const Vec3& line, Index side);
+  bool cut(const Vec3& line, double on_side, Index side);
 
   Frame frame_{Vec3(0, 0, 1)};
   std::vector<Corner> subject_, current_, next_;

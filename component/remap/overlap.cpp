@@ -14,6 +14,8 @@ namespace {
 constexpr std::int64_t kBlock = 512;
 constexpr std::int64_t kCopyGrain = 4096;  // targets whose overlaps are copied, 0.1 ms
 
+constexpr std::size_t kExpected = 6;  // overlaps a target between grids of like spacing, or less
+
 // Corners nearer than this are the same: the last bits depend on the order of a triangle's corners.
 constexpr double kSame = 1e-15;
 // A common area below this part of the smaller polygon is rounding.
@@ -44,26 +46,22 @@ struct Plan {
   Array<std::uint8_t> is_taken;      // [n_sources] it has a twin
 };
 
-// The neighbour across the side that p is farthest outside of; kNone when p is inside.
+// The neighbour across a side that p is outside of; kNone when p is inside.
 Index step_towards(const Tiling& tiling, Index polygon, const Vec3& p) {
   const auto corners = tiling.corners(polygon);
-  double worst = -kOutside;
-  Index next = kNone;
   const Vec3& centre = tiling.centres()[at(polygon)];
   Vec3 from = tiling.corner(corners.back());
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec3& to = tiling.corner(corners[k]);
     const Vec3 normal = from.cross(to - from);
-    const double length = normal.norm();
-    const double distance = normal.dot(p - from);
     // A side that runs backwards is no border.
-    if (distance < worst * length && normal.dot(centre - from) > 0.0) {
-      worst = distance / length;
-      next = tiling.neighbours(polygon)[k];
+    if (normal.dot(p - from) < -kOutside * normal.cwiseAbs().sum() &&
+        normal.dot(centre - from) > 0.0) {
+      return tiling.neighbours(polygon)[k];
     }
     from = to;
   }
-  return next;
+  return kNone;
 }
 
 Index nearest_centre(const Tiling& tiling, const Vec3& p, std::int64_t stride) {
@@ -262,6 +260,7 @@ void collect(Context& context, const Plan& plan, Overlaps& overlaps) {
     context.monitor.check_cancelled();
     Block& block = blocks[at(begin / kBlock)];
     Search search(plan);
+    block.found.reserve(kExpected * at(end - begin));
     std::vector<Found> found;
     for (std::int64_t k = begin; k < end; ++k) {
       const Index target = plan.order[at(k)];

@@ -15,15 +15,20 @@ Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
   tiling.grid_ = &grid;
   tiling.corner_position_ = grid.vertex_position;
   tiling.area_m2_ = grid.cell_area_m2;
+  const bool is_sphere = grid.surface.is_sphere();
   tiling.bow_of_edge_.resize(at(grid.n_edges()));
   parallel::for_index(exec, grid.n_edges(), kTriangleGrain, [&](std::int64_t edge) {
+    const auto [c, d] = grid.cells_on_edge[at(edge)];
     const auto [v, w] = grid.vertices_on_edge[at(edge)];
     const Vec3& from = grid.vertex_position[at(v)];
-    const Vec3 to_middle = grid.edge_position[at(edge)] - from;
-    const Vec3 to_end = grid.vertex_position[at(w)] - from;
+    // Areas on the sphere halve the triangles between the two cells; they know no edge.
+    const Vec3 middle = is_sphere
+                            ? Vec3(0.5 * (grid.cell_position[at(c)] + grid.cell_position[at(d)]))
+                            : grid.edge_position[at(edge)];
     // Surface over solid angle: |W y| where y W y = 1, and 1 on the sphere.
     const double density = from.cwiseProduct(grid.surface.inverse_square()).norm();
-    tiling.bow_of_edge_[at(edge)] = 0.5 * density * from.dot(to_middle.cross(to_end));
+    tiling.bow_of_edge_[at(edge)] =
+        0.5 * density * from.dot((middle - from).cross(grid.vertex_position[at(w)] - from));
   });
   return tiling;
 }
