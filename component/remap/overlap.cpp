@@ -6,6 +6,7 @@
 
 #include "geometry/point_order.hpp"
 #include "remap/clip.hpp"
+#include "remap/walk.hpp"
 
 namespace delos::remap {
 namespace {
@@ -24,10 +25,6 @@ constexpr double kSliver = 1e-13;
 constexpr double kLookAgain = 1e-8;
 // What may be missing at last: sides are straight to rounding, also after looking again.
 constexpr double kLargestGap = 1e-6;
-// A walk ends in the polygon whose sides p is left of, to rounding.
-constexpr double kOutside = 1e-15;
-// Places to start a block's first walk from.
-constexpr std::int64_t kStarts = 512;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -45,50 +42,6 @@ struct Plan {
   Array<std::uint8_t> is_unchanged;  // [n_targets] its home is its twin
   Array<std::uint8_t> is_taken;      // [n_sources] it has a twin
 };
-
-// The neighbour across a side that p is outside of; kNone when p is inside.
-Index step_towards(const Tiling& tiling, Index polygon, const Vec3& p) {
-  const auto corners = tiling.corners(polygon);
-  const Vec3& centre = tiling.centres()[at(polygon)];
-  Vec3 from = tiling.corner(corners.back());
-  for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vec3& to = tiling.corner(corners[k]);
-    const Vec3 normal = from.cross(to - from);
-    // A side that runs backwards is no border.
-    if (normal.dot(p - from) < -kOutside * normal.cwiseAbs().sum() &&
-        normal.dot(centre - from) > 0.0) {
-      return tiling.neighbours(polygon)[k];
-    }
-    from = to;
-  }
-  return kNone;
-}
-
-Index nearest_centre(const Tiling& tiling, const Vec3& p, std::int64_t stride) {
-  Index best = 0;
-  double least = 16.0;
-  for (std::int64_t i = 0; i < tiling.size(); i += stride) {
-    const double square = (tiling.centres()[at(i)] - p).squaredNorm();
-    if (square < least) {
-      least = square;
-      best = static_cast<Index>(i);
-    }
-  }
-  return best;
-}
-
-// Every step crosses a plane between p and the polygon: in a tiling by Voronoi cells it can't
-// cycle. In others it might, and the nearest centre is a place to look around from.
-Index walk(const Tiling& tiling, const Vec3& p, Index start) {
-  const std::int64_t longest = 1000 + 10 * static_cast<std::int64_t>(std::sqrt(tiling.size()));
-  Index here = start;
-  for (std::int64_t step = 0; step < longest; ++step) {
-    const Index next = step_towards(tiling, here, p);
-    if (next == kNone) return here;
-    here = next;
-  }
-  return nearest_centre(tiling, p, 1);
-}
 
 bool are_twins(const Tiling& a, std::int64_t i, const Tiling& b, std::int64_t j) {
   const auto p = a.corners(i), q = b.corners(j);
@@ -110,19 +63,18 @@ void find_homes(Context& context, Plan& plan) {
   plan.home.resize(at(plan.target.size()));
   plan.is_unchanged.resize(at(plan.target.size()));
   plan.is_taken.assign(at(plan.source.size()), 0);
-  const std::int64_t stride = std::max<std::int64_t>(1, plan.source.size() / kStarts);
-  parallel::for_range(
-      context.exec, plan.target.size(), kBlock, [&](std::int64_t begin, std::int64_t end) {
-        const auto& centres = plan.target.centres();
-        Index here = nearest_centre(plan.source, centres[at(plan.order[at(begin)])], stride);
-        for (std::int64_t k = begin; k < end; ++k) {
-          const Index i = plan.order[at(k)];
-          here = walk(plan.source, centres[at(i)], here);
-          plan.home[at(i)] = here;
-          plan.is_unchanged[at(i)] = are_twins(plan.target, i, plan.source, here);
-          if (plan.is_unchanged[at(i)]) plan.is_taken[at(here)] = 1;
-        }
-      });
+  parallel::for_range(context.exec, plan.target.size(), kBlock,
+                      [&](std::int64_t begin, std::int64_t end) {
+                        const auto& centres = plan.target.centres();
+                        Index here = start_near(plan.source, centres[at(plan.order[at(begin)])]);
+                        for (std::int64_t k = begin; k < end; ++k) {
+                          const Index i = plan.order[at(k)];
+                          here = walk(plan.source, centres[at(i)], here);
+                          plan.home[at(i)] = here;
+                          plan.is_unchanged[at(i)] = are_twins(plan.target, i, plan.source, here);
+                          if (plan.is_unchanged[at(i)]) plan.is_taken[at(here)] = 1;
+                        }
+                      });
 }
 
 // The sources seen around one target: a small table, found by hashing.

@@ -24,6 +24,12 @@ struct Overlaps {
   int n_balancing = 0;       ///< rounds that balancing took
 
   std::int64_t size() const { return static_cast<std::int64_t>(source.size()); }
+  /// Target i is one source and all of it, not a part of one.
+  bool is_copy(std::int64_t i) const {
+    const auto first = static_cast<std::size_t>(offsets[static_cast<std::size_t>(i)]);
+    return offsets[static_cast<std::size_t>(i) + 1] == offsets[static_cast<std::size_t>(i)] + 1 &&
+           middle[first] == Vec3(0, 0, 0);
+  }
 };
 
 /// Intersects two tilings of the same surface. Sums over targets give each source's area, sums over

@@ -26,10 +26,7 @@ struct Rows {
   const Overlaps& overlaps;
   std::int64_t begin(std::int64_t i) const { return overlaps.offsets[at(i)]; }
   std::int64_t end(std::int64_t i) const { return overlaps.offsets[at(i) + 1]; }
-  // One source and all of it, not a part of one.
-  bool is_copy(std::int64_t i) const {
-    return end(i) - begin(i) == 1 && overlaps.middle[at(begin(i))] == Vec3(0, 0, 0);
-  }
+  bool is_copy(std::int64_t i) const { return overlaps.is_copy(i); }
   Index source(std::int64_t k) const { return overlaps.source[at(k)]; }
 };
 

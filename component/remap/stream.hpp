@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// Flow without divergence: transferred by its stream function, so that none is made.
+#include <span>
+
+#include "core/array.hpp"
+#include "core/progress.hpp"
+#include "dual/grid.hpp"
+
+namespace delos::remap {
+
+/// psi at grid vertices, m2/s: the normal velocity at an edge is -(psi[v1] - psi[v0]) / dv, that of
+/// up x grad psi.
+struct StreamFunction {
+  Array<double> psi;  ///< [n_vertices], 0 at vertex 0
+  /// Part of the flow, root of mean square over that of the flow, which no stream function has: its
+  /// divergent part. Rounding for a flow without divergence.
+  double remainder = 0.0;
+};
+
+/// The stream function whose flow is nearest to `normal` [n_edges] in the mean of squares weighted
+/// with dc dv (the Helmholtz projection). A sum along a spanning tree, which is the answer when the
+/// flow has no divergence; else conjugate gradients go on from it, sqrt(n) rounds.
+StreamFunction stream_function(Context& context, const Grid& grid, std::span<const double> normal);
+
+/// Normal velocities [n_edges] of psi [n_vertices]: outflows telescope, so their sum over a cell is
+/// rounding.
+Array<double> flow_of(parallel::Executor& exec, const Grid& grid, std::span<const double> psi);
+
+/// psi of the source grid at the target's vertices: a quadratic fit to the corners of the source
+/// cell there and of its neighbours, so that velocities are good to second order; at vertices that
+/// both grids have, the value itself. [target.n_vertices()]
+Array<double> transfer_stream_function(parallel::Executor& exec, const Grid& source,
+                                       const Grid& target, std::span<const double> psi);
+
+}  // namespace delos::remap

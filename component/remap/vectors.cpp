@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "remap/vectors.hpp"
+
+namespace delos::remap {
+namespace {
+
+constexpr std::int64_t kGrain = 2048;  // about 0.2 ms
+
+// Normals that all point one way (determinant against the square of the trace) fix no vector.
+constexpr double kOneWay = 1e-9;
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+Vec3 fit_cell(const Grid& grid, std::int64_t cell, std::span<const double> normal) {
+  const Vec3 up = grid.surface.normal(grid.cell_position[at(cell)]);
+  int smallest = 0;
+  up.cwiseAbs().minCoeff(&smallest);
+  const Vec3 east = Vec3(Vec3::Unit(smallest)).cross(up).normalized();
+  const Vec3 north = up.cross(east);
+  double xx = 0.0, xy = 0.0, yy = 0.0, bx = 0.0, by = 0.0;
+  for (const Index edge : grid.edges_on_cell.row(cell)) {
+    const Vec3 direction = edge_normal(grid, edge);
+    const double x = direction.dot(east), y = direction.dot(north);
+    const double weight = grid.cell_distance_m[at(edge)] * grid.vertex_distance_m[at(edge)];
+    xx += weight * x * x;
+    xy += weight * x * y;
+    yy += weight * y * y;
+    bx += weight * x * normal[at(edge)];
+    by += weight * y * normal[at(edge)];
+  }
+  const double det = xx * yy - xy * xy;
+  if (!(det > kOneWay * (xx + yy) * (xx + yy))) return Vec3::Zero();
+  return ((yy * bx - xy * by) * east + (xx * by - xy * bx) * north) / det;
+}
+
+}  // namespace
+
+Vec3 edge_normal(const Grid& grid, std::int64_t edge) {
+  const auto [c, d] = grid.cells_on_edge[at(edge)];
+  const auto [v, w] = grid.vertices_on_edge[at(edge)];
+  const Vec3 up = grid.surface.normal(grid.edge_position[at(edge)]);
+  const Vec3 along = grid.cell_position[at(d)] - grid.cell_position[at(c)];
+  const Vec3 flat = along - up * up.dot(along);
+  if (grid.surface.is_sphere()) return flat.normalized();
+  // On an ellipsoid the normal is that of the dual edge, where it has a direction.
+  constexpr double kDegenerateDual = 1e-12;
+  const Vec3 across = grid.vertex_position[at(w)] - grid.vertex_position[at(v)];
+  if (across.squaredNorm() <= kDegenerateDual * along.squaredNorm()) return flat.normalized();
+  return across.cross(up).normalized();
+}
+
+Array<Vec3> cell_velocities(parallel::Executor& exec, const Grid& grid,
+                            std::span<const double> normal) {
+  Array<Vec3> result(at(grid.n_cells()));
+  parallel::for_index(exec, grid.n_cells(), kGrain,
+                      [&](std::int64_t i) { result[at(i)] = fit_cell(grid, i, normal); });
+  return result;
+}
+
+Array<double> normal_velocities(parallel::Executor& exec, const Grid& grid,
+                                std::span<const Vec3> cells) {
+  Array<double> result(at(grid.n_edges()));
+  parallel::for_index(exec, grid.n_edges(), kGrain, [&](std::int64_t edge) {
+    const auto [c, d] = grid.cells_on_edge[at(edge)];
+    result[at(edge)] = 0.5 * edge_normal(grid, edge).dot(cells[at(c)] + cells[at(d)]);
+  });
+  return result;
+}
+
+Array<Vec3> transfer_vectors(parallel::Executor& exec, const Transfer& transfer, const Grid& target,
+                             std::span<const Vec3> source, const TransferOptions& options) {
+  Array<double> from(source.size()), to(at(target.n_cells()));
+  Array<Vec3> result(at(target.n_cells()));
+  const auto n_sources = static_cast<std::int64_t>(source.size());
+  for (int axis = 0; axis < 3; ++axis) {
+    parallel::for_index(exec, n_sources, kGrain,
+                        [&](std::int64_t j) { from[at(j)] = source[at(j)][axis]; });
+    transfer.apply(exec, from, to, options);
+    parallel::for_index(exec, target.n_cells(), kGrain,
+                        [&](std::int64_t i) { result[at(i)][axis] = to[at(i)]; });
+  }
+  const Overlaps& overlaps = transfer.overlaps();
+  parallel::for_index(exec, target.n_cells(), kGrain, [&](std::int64_t i) {
+    if (overlaps.is_copy(i)) return;  // in its plane already, and the same to the bit
+    const Vec3 up = target.surface.normal(target.cell_position[at(i)]);
+    result[at(i)] -= up * up.dot(result[at(i)]);
+  });
+  return result;
+}
+
+Array<double> divergence(parallel::Executor& exec, const Grid& grid,
+                         std::span<const double> normal) {
+  Array<double> result(at(grid.n_cells()));
+  parallel::for_index(exec, grid.n_cells(), kGrain, [&](std::int64_t i) {
+    double outflow = 0.0;
+    for (const Index edge : grid.edges_on_cell.row(i)) {
+      const double flux = normal[at(edge)] * grid.vertex_distance_m[at(edge)];
+      outflow += grid.cells_on_edge[at(edge)][0] == i ? flux : -flux;
+    }
+    result[at(i)] = outflow / grid.cell_area_m2[at(i)];
+  });
+  return result;
+}
+
+}  // namespace delos::remap
