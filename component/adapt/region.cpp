@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <span>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -130,7 +131,7 @@ std::vector<Index> wanted_parts(const OldMesh& old, const std::vector<char>& fit
 Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingField& spacing,
                    const RegionOptions& options, const std::vector<char>& is_fixed) {
   const std::vector<char> fit = compare_spacings(exec, old.mesh, spacing, options);
-  const std::vector<char> is_barred = barred(old, is_fixed);
+  std::vector<char> is_barred = barred(old, is_fixed);
   Region out;
   out.change.assign(fit.size(), Change::keep);
   for (std::size_t v = 0; v < fit.size(); ++v) {
@@ -155,6 +156,7 @@ Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingFi
   for (const Index v : moving.members()) {
     if (out.change[at(v)] == Change::keep) out.change[at(v)] = Change::move;
   }
+  out.is_barred = std::move(is_barred);
   return out;
 }
 

@@ -34,11 +34,12 @@ enum class Change : std::uint8_t {
 };
 
 struct Region {
-  std::vector<Change> change;  ///< [n_vertices]
-  std::int64_t n_wanted = 0;   ///< vertices whose spacing is outside the tolerance
+  std::vector<Change> change;   ///< [n_vertices]
+  std::vector<char> is_barred;  ///< [n_vertices]: fixed, or next to a fixed one
+  std::int64_t n_wanted = 0;    ///< vertices whose spacing is outside the tolerance
   std::int64_t n_removed = 0;
   std::int64_t n_moving = 0;
-  std::int64_t n_held = 0;  ///< wanted, but fixed or next to a fixed one
+  std::int64_t n_held = 0;  ///< wanted, but barred
 };
 
 /// A mesh whose Vertex::spacing tells what it was made for, and one triangle at each vertex.

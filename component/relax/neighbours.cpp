@@ -2,6 +2,7 @@
 #include "relax/neighbours.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace delos {
 namespace {
@@ -34,20 +35,39 @@ std::size_t fill_row(const Mesh& mesh, Index vertex, Index first,
 }  // namespace
 
 NeighbourRows::NeighbourRows(parallel::Executor& exec, const Mesh& mesh)
-    : rows_(mesh.vertices.size()) {
-  const std::vector<Index> at_vertex = triangle_at_vertex(mesh);
+    : has_all_(true), rows_(mesh.vertices.size()) {
+  fill(exec, mesh, triangle_at_vertex(mesh));
+}
+
+NeighbourRows::NeighbourRows(parallel::Executor& exec, const Mesh& mesh,
+                             const std::vector<Index>& at_vertex, std::vector<Index> vertices)
+    : has_all_(false), vertices_(std::move(vertices)), rows_(vertices_.size()) {
+  fill(exec, mesh, at_vertex);
+}
+
+void NeighbourRows::fill(parallel::Executor& exec, const Mesh& mesh,
+                         const std::vector<Index>& at_vertex) {
   overflow_ = parallel::collect<Overflow>(
-      exec, mesh.n_vertices(), kRowGrain,
+      exec, static_cast<std::int64_t>(rows_.size()), kRowGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Overflow>& found) {
         for (std::int64_t i = begin; i < end; ++i) {
-          const auto v = static_cast<std::size_t>(i);
-          const auto vertex = static_cast<Index>(i);
-          if (fill_row(mesh, vertex, at_vertex[v], rows_[v], nullptr) > kWidth) {
+          const auto place = static_cast<std::size_t>(i);
+          const auto vertex = vertex_at(static_cast<Index>(i));
+          const Index first = at_vertex[static_cast<std::size_t>(vertex)];
+          if (fill_row(mesh, vertex, first, rows_[place], nullptr) > kWidth) {
             found.push_back({vertex, {}});
-            fill_row(mesh, vertex, at_vertex[v], rows_[v], &found.back().neighbours);
+            fill_row(mesh, vertex, first, rows_[place], &found.back().neighbours);
           }
         }
       });
+}
+
+Index NeighbourRows::place_of(Index vertex) const {
+  if (has_all_) return vertex;
+  const auto found = std::lower_bound(vertices_.begin(), vertices_.end(), vertex);
+  return found != vertices_.end() && *found == vertex
+             ? static_cast<Index>(found - vertices_.begin())
+             : kNone;
 }
 
 void NeighbourRows::update(const Mesh& mesh, const std::vector<Index>& triangles) {
@@ -61,9 +81,11 @@ void NeighbourRows::update(const Mesh& mesh, const std::vector<Index>& triangles
   corners.erase(std::unique(corners.begin(), corners.end(), is_same_vertex), corners.end());
   for (const auto& corner : corners) {
     const Index vertex = corner.first;
+    const Index place = place_of(vertex);
+    if (place == kNone) continue;
     std::erase_if(overflow_, [&](const Overflow& entry) { return entry.vertex == vertex; });
     Overflow beyond{vertex, {}};
-    auto& row = rows_[static_cast<std::size_t>(vertex)];
+    auto& row = rows_[static_cast<std::size_t>(place)];
     if (fill_row(mesh, vertex, corner.second, row, &beyond.neighbours) <= kWidth) continue;
     overflow_.insert(
         std::lower_bound(overflow_.begin(), overflow_.end(), vertex,

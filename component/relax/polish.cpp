@@ -60,12 +60,16 @@ bool is_bad(const Mesh& mesh, Index tri, double target) {
          score(mesh, tri) < target;
 }
 
-// Ids of the triangles below the target, ascending.
-std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, double target) {
+// Ids of the triangles below the target, ascending; of a part when there is one.
+std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, const RelaxPart* part,
+                            double target) {
+  const auto n = part == nullptr ? static_cast<std::int64_t>(mesh.n_triangles())
+                                 : static_cast<std::int64_t>(part->triangles.size());
   return parallel::collect<Index>(
-      exec, mesh.n_triangles(), kScanGrain,
-      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
-        for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
+      exec, n, kScanGrain, [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Index tri = part == nullptr ? static_cast<Index>(i)
+                                            : part->triangles[static_cast<std::size_t>(i)];
           if (is_bad(mesh, tri, target)) found.push_back(tri);
         }
       });
@@ -75,6 +79,13 @@ std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, double t
 struct MeshView {
   const Mesh& mesh;
   const TriangleAtVertex& at_vertex;
+  const RelaxPart* part;  // null: every vertex is free
+
+  bool is_free(Index vertex) const { return part == nullptr || part->is_free[at(vertex)] != 0; }
+  bool has_free_corner(Index tri) const {
+    const auto& v = mesh.triangle(tri).vertex;
+    return is_free(v[0]) || is_free(v[1]) || is_free(v[2]);
+  }
 };
 
 // A triangle with the vertices around it: the first n_free may move, the others are their border.
@@ -174,6 +185,7 @@ std::vector<Job> pick_jobs(parallel::Executor& exec, const MeshView& view, const
     for (const Index v : vertices) is_taken[at(v)] = 1;
     taken.insert(taken.end(), vertices.begin(), vertices.end());
     vertices.resize(around[i].n_free);
+    std::erase_if(vertices, [&](Index v) { return !view.is_free(v); });
     std::sort(vertices.begin(), vertices.end());
     jobs[i].free_vertices = std::move(vertices);
     picked.push_back(std::move(jobs[i]));
@@ -233,8 +245,9 @@ std::int64_t restore_around(parallel::Executor& exec, const Ellipsoid& surface, 
 }
 
 // Only triangles that were bad, have been written or lie next to those can be bad now.
-std::vector<Index> still_bad(parallel::Executor& exec, const Mesh& mesh, double target,
+std::vector<Index> still_bad(parallel::Executor& exec, const MeshView& view, double target,
                              std::vector<Index> suspects, const std::vector<Index>& written) {
+  const Mesh& mesh = view.mesh;
   for (const Index tri : written) {
     const auto& around = mesh.triangle(tri).neighbour;
     suspects.insert(suspects.end(), around.begin(), around.end());
@@ -247,7 +260,8 @@ std::vector<Index> still_bad(parallel::Executor& exec, const Mesh& mesh, double 
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (std::int64_t i = begin; i < end; ++i) {
           const Index tri = suspects[static_cast<std::size_t>(i)];
-          if (mesh.triangle(tri).vertex[0] != kNone && is_bad(mesh, tri, target)) {
+          if (mesh.triangle(tri).vertex[0] != kNone && view.has_free_corner(tri) &&
+              is_bad(mesh, tri, target)) {
             found.push_back(tri);
           }
         }
@@ -255,10 +269,13 @@ std::vector<Index> still_bad(parallel::Executor& exec, const Mesh& mesh, double 
 }
 
 // `bad`, the triangles below the target, keeps those that are aimed at.
-Aim choose_aim(const Mesh& mesh, const RelaxOptions& options, std::vector<Index>& bad) {
+Aim choose_aim(const MeshView& view, const RelaxOptions& options, std::vector<Index>& bad) {
+  const Mesh& mesh = view.mesh;
   const Aim full{options.target_quality, kMeans.size(), options.polish_rounds};
+  const std::size_t n_triangles =
+      view.part == nullptr ? mesh.triangles.size() : view.part->triangles.size();
   const auto is_many = [&](std::size_t n, std::size_t share) {
-    return n > kManyBad && n * share > mesh.triangles.size();
+    return n > kManyBad && n * share > n_triangles;
   };
   if (!is_many(bad.size(), kRoughShare)) return full;
   const double near_target = options.target_quality - kNearTarget;
@@ -267,43 +284,65 @@ Aim choose_aim(const Mesh& mesh, const RelaxOptions& options, std::vector<Index>
   return {near_target, kMovesOnly, std::min(kHostileRounds, options.polish_rounds)};
 }
 
+// Takes out what patches gave up; the part follows.
+void compact_all(parallel::Executor& exec, Mesh& mesh, RelaxPart* part, MeshEdits& edits) {
+  if (edits.dead_vertices.empty()) return;
+  if (part != nullptr) {
+    std::sort(edits.dead_vertices.begin(), edits.dead_vertices.end());
+    auto next = edits.dead_vertices.begin();
+    std::size_t to = 0;
+    for (std::size_t v = 0; v < part->is_free.size(); ++v) {
+      if (next != edits.dead_vertices.end() && at(*next) == v) {
+        ++next;
+      } else {
+        part->is_free[to++] = part->is_free[v];
+      }
+    }
+    part->is_free.resize(to);
+  }
+  compact(exec, mesh, edits);
+}
+
 }  // namespace
 
-PolishReport polish(Context& context, const Target& target, const RelaxOptions& options,
-                    Mesh& mesh) {
+PolishReport polish(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
+                    RelaxPart* part) {
   PolishReport report;
-  const Phase phase(context.monitor, "polish", mesh.n_triangles());
-  std::vector<Index> bad = find_bad(context.exec, mesh, options.target_quality);
-  const Aim aim = choose_aim(mesh, options, bad);
-  const RepairOptions repair{aim.quality, options.repair};
-  context.monitor.advance(mesh.n_triangles() - static_cast<std::int64_t>(bad.size()));
-  TriedMeans tried(mesh.vertices.size(), 0);
   TriangleAtVertex at_vertex = triangle_at_vertex(context.exec, mesh);
+  const MeshView view{mesh, at_vertex, part};
+  const std::int64_t n_triangles =
+      static_cast<std::int64_t>(part == nullptr ? mesh.triangles.size() : part->triangles.size());
+  const Phase phase(context.monitor, "polish", n_triangles);
+  std::vector<Index> bad = find_bad(context.exec, mesh, part, options.target_quality);
+  const Aim aim = choose_aim(view, options, bad);
+  const RepairOptions repair{aim.quality, options.repair};
+  context.monitor.advance(n_triangles - static_cast<std::int64_t>(bad.size()));
+  TriedMeans tried(mesh.vertices.size(), 0);
   std::vector<char> is_taken(mesh.vertices.size(), 0);
   const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
   MeshEdits edits;
   for (int round = 0; round < aim.most_rounds && !bad.empty(); ++round) {
     context.monitor.check_cancelled();
-    const MeshView view{mesh, at_vertex};
     std::vector<Job> jobs = pick_jobs(context.exec, view, tried, {bad, aim}, is_taken);
     if (jobs.empty()) break;
     mend(context, target, repair, view, jobs);
     commit(jobs, mesh, at_vertex, tried, edits);
     is_taken.resize(mesh.vertices.size(), 0);
+    if (part != nullptr) part->is_free.resize(mesh.vertices.size(), 1);
     std::vector<Index> written = edits.touched_triangles;
     report.n_flips += restore_around(context.exec, target.surface, mesh, written);
     for (const Index tri : written) {
       for (const Index v : mesh.triangle(tri).vertex) at_vertex[at(v)] = tri;
     }
     const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    bad = still_bad(context.exec, mesh, aim.quality, std::move(bad), written);
+    bad = still_bad(context.exec, view, aim.quality, std::move(bad), written);
     context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
     ++report.rounds;
   }
   report.n_inserted = static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
   report.n_removed = static_cast<std::int64_t>(edits.dead_vertices.size());
   report.n_below_target = static_cast<std::int64_t>(bad.size());
-  if (!edits.dead_vertices.empty()) compact(context.exec, mesh, edits);
+  compact_all(context.exec, mesh, part, edits);
   return report;
 }
 

@@ -18,7 +18,9 @@ struct PolishReport {
 /// round already holds a vertex of it, mends the patches in parallel and commits them in order. A
 /// triangle whose patch gained nothing gets stronger means the next time: vertices may come and
 /// go, then more rings; when the strongest have failed it is left, and counted in the report.
-PolishReport polish(Context& context, const Target& target, const RelaxOptions& options,
-                    Mesh& mesh);
+/// With a part, only triangles with a free corner are looked at and only free vertices move or go;
+/// the part is kept up to date.
+PolishReport polish(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
+                    RelaxPart* part = nullptr);
 
 }  // namespace delos

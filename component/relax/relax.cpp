@@ -2,6 +2,7 @@
 #include "relax/relax.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "relax/neighbours.hpp"
@@ -45,6 +46,62 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
   }
 }
 
+constexpr std::int64_t kPartGrain = 16384;  // items a task: some ten microseconds
+
+bool has_free_corner(const Triangle& t, const std::vector<char>& is_free) {
+  return is_free[static_cast<std::size_t>(t.vertex[0])] != 0 ||
+         is_free[static_cast<std::size_t>(t.vertex[1])] != 0 ||
+         is_free[static_cast<std::size_t>(t.vertex[2])] != 0;
+}
+
+// Flips may give a triangle its first free corner.
+void update_triangles(const Mesh& mesh, const std::vector<Index>& flipped, RelaxPart& part) {
+  std::vector<Index> all = flipped;
+  std::sort(all.begin(), all.end());
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  std::vector<Index> merged;
+  std::set_union(part.triangles.begin(), part.triangles.end(), all.begin(), all.end(),
+                 std::back_inserter(merged));
+  std::erase_if(merged,
+                [&](Index tri) { return !has_free_corner(mesh.triangle(tri), part.is_free); });
+  part.triangles = std::move(merged);
+}
+
+void relax_springs(Context& context, const Target& target, const RelaxOptions& options,
+                   RelaxPart& part, Mesh& mesh, RelaxReport& report) {
+  std::vector<Index> vertices;
+  for (std::size_t v = 0; v < part.is_free.size(); ++v) {
+    if (part.is_free[v] != 0) vertices.push_back(static_cast<Index>(v));
+  }
+  const auto n = static_cast<std::int64_t>(vertices.size());
+  const Phase phase(context.monitor, "relax", options.spring_rounds * n);
+  SpringPart springs{{context.exec, mesh, triangle_at_vertex(context.exec, mesh), std::move(vertices)},
+                     part.triangles};
+  Array<Vertex> other;
+  for (int round = 0; round < options.spring_rounds; ++round) {
+    context.monitor.check_cancelled();
+    spring_round(context.exec, target, springs, mesh, other);
+    ++report.spring_rounds;
+    if (is_flip_round(round, options.spring_rounds - 1)) {
+      std::vector<Index> flipped;
+      report.n_flips +=
+          restore_delaunay_around(context.exec, mesh, target.surface, springs.triangles, &flipped);
+      springs.rows.update(mesh, flipped);
+      update_triangles(mesh, flipped, part);
+      springs.triangles = part.triangles;
+    }
+    context.monitor.advance(n);
+  }
+}
+
+void add(const PolishReport& polished, RelaxReport& report) {
+  report.polish_rounds = polished.rounds;
+  report.n_flips += polished.n_flips;
+  report.n_removed = polished.n_removed;
+  report.n_inserted = polished.n_inserted;
+  report.n_below_target = polished.n_below_target;
+}
+
 }  // namespace
 
 RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
@@ -54,13 +111,29 @@ RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField
   const Target target{surface, spacing};
   if (options.spring_rounds > 0) relax_springs(context, target, options, mesh, report);
   if (options.polish_rounds > 0) {
-    const PolishReport polished = polish(context, target, options, mesh);
-    report.polish_rounds = polished.rounds;
-    report.n_flips += polished.n_flips;
-    report.n_removed = polished.n_removed;
-    report.n_inserted = polished.n_inserted;
-    report.n_below_target = polished.n_below_target;
+    add(polish(context, target, options, mesh), report);
   }
+  return report;
+}
+
+RelaxPart make_relax_part(parallel::Executor& exec, const Mesh& mesh, std::vector<char> is_free) {
+  RelaxPart part{std::move(is_free), {}};
+  part.triangles = parallel::collect<Index>(
+      exec, mesh.n_triangles(), kPartGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
+          if (has_free_corner(mesh.triangle(tri), part.is_free)) found.push_back(tri);
+        }
+      });
+  return part;
+}
+
+RelaxReport relax_part(Context& context, const Target& target, const RelaxOptions& options,
+                       RelaxPart& part, Mesh& mesh) {
+  check_options(options);
+  RelaxReport report;
+  if (options.spring_rounds > 0) relax_springs(context, target, options, part, mesh, report);
+  if (options.polish_rounds > 0) add(polish(context, target, options, mesh, &part), report);
   return report;
 }
 

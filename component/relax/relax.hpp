@@ -2,10 +2,10 @@
 #pragma once
 // Relaxation: springs, then repair and polish of the worst triangles.
 #include <cstdint>
+#include <vector>
 
 #include "core/progress.hpp"
-#include "geometry/ellipsoid.hpp"
-#include "sizing/spacing.hpp"
+#include "relax/target.hpp"
 #include "triangulation/mesh.hpp"
 
 namespace delos {
@@ -38,5 +38,20 @@ struct RelaxReport {
 /// bits for any number of threads.
 RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
                   const RelaxOptions& options, Mesh& mesh);
+
+/// The part of a mesh that a local relaxation may move.
+struct RelaxPart {
+  std::vector<char> is_free;     ///< [n_vertices]
+  std::vector<Index> triangles;  ///< all that have a free corner, ascending
+};
+
+/// RelaxPart::triangles of these free vertices.
+RelaxPart make_relax_part(parallel::Executor& exec, const Mesh& mesh, std::vector<char> is_free);
+
+/// The same for a part: all other vertices keep their coordinates and spacing bit for bit, and stay
+/// in their order where free ones go; `part` is kept up to date. Only triangles with a free corner
+/// count. A few of them may be left below the target because of vertices that may not move.
+RelaxReport relax_part(Context& context, const Target& target, const RelaxOptions& options,
+                       RelaxPart& part, Mesh& mesh);
 
 }  // namespace delos

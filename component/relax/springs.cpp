@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <utility>
 
 namespace delos {
 namespace {
@@ -68,9 +69,10 @@ struct Round {
 };
 
 // `before` is where the vertex was a round ago; it is read only when there is momentum.
-Vertex move(const Round& round, Index vertex, const Vertex& before) {
+Vertex move(const Round& round, Index place, const Vertex& before) {
+  const Index vertex = round.rows.vertex_at(place);
   const Vertex& p = round.vertices[static_cast<std::size_t>(vertex)];
-  const auto& row = round.rows.row(vertex);
+  const auto& row = round.rows.row(place);
   Vec3 step = kTimeStep * row_force(round.vertices, p, row);
   if (row[kWidth - 1] != vertex && !round.rows.overflow().empty()) {
     step += kTimeStep * overflow_force(round.vertices, vertex, round.rows);
@@ -88,7 +90,8 @@ void move_all(parallel::Executor& exec, const Round& round, Array<Vertex>& other
   parallel::for_range(exec, n, kSpringGrain, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t i = begin; i < end; ++i) {
       Vertex& v = other[static_cast<std::size_t>(i)];
-      v = move(round, static_cast<Index>(i), v);
+      const auto place = static_cast<Index>(i);
+      v = move(round, place, v);
     }
     round.target.spacing.evaluate(std::span(other).subspan(static_cast<std::size_t>(begin),
                                                            static_cast<std::size_t>(end - begin)));
@@ -127,6 +130,27 @@ std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh,
       });
 }
 
+// The same for a part that has been moved in the mesh: places of the vertices that have to go back
+// to `before`, with repetition.
+std::vector<Index> find_spoilt(parallel::Executor& exec, const Mesh& mesh, const SpringPart& part,
+                               const Array<Vertex>& before) {
+  return parallel::collect<Index>(
+      exec, static_cast<std::int64_t>(part.triangles.size()), kTurnGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Triangle& t = mesh.triangle(part.triangles[static_cast<std::size_t>(i)]);
+          if (!is_flat_or_turned(t, mesh.vertices)) continue;
+          for (const Index v : t.vertex) {
+            const Index place = part.rows.place_of(v);
+            if (place != kNone && !is_same_place(mesh.vertices[static_cast<std::size_t>(v)],
+                                                 before[static_cast<std::size_t>(place)])) {
+              found.push_back(place);
+            }
+          }
+        }
+      });
+}
+
 }  // namespace
 
 void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
@@ -142,6 +166,25 @@ void spring_round(parallel::Executor& exec, const Target& target, const Neighbou
         other[static_cast<std::size_t>(v)] = mesh.vertices[static_cast<std::size_t>(v)];
       }
     }
+  }
+}
+
+void spring_round(parallel::Executor& exec, const Target& target, const SpringPart& part,
+                  Mesh& mesh, Array<Vertex>& other) {
+  const auto n = static_cast<std::size_t>(part.rows.size());
+  const bool has_past = other.size() == n;
+  if (!has_past) other.resize(n);
+  move_all(exec, {target, part.rows, mesh.vertices, has_past ? kMomentum : 0.0}, other);
+  const auto vertex_at = [&](std::int64_t place) -> Vertex& {
+    return mesh.vertices[static_cast<std::size_t>(part.rows.vertex_at(static_cast<Index>(place)))];
+  };
+  parallel::for_index(exec, part.rows.size(), kSpringGrain, [&](std::int64_t place) {
+    std::swap(vertex_at(place), other[static_cast<std::size_t>(place)]);
+  });
+  // `other` now holds the places before the round. As above, one pass is the rule.
+  for (std::vector<Index> spoilt = find_spoilt(exec, mesh, part, other); !spoilt.empty();
+       spoilt = find_spoilt(exec, mesh, part, other)) {
+    for (const Index place : spoilt) vertex_at(place) = other[static_cast<std::size_t>(place)];
   }
 }
 

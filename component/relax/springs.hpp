@@ -18,4 +18,15 @@ namespace delos {
 void spring_round(parallel::Executor& exec, const Target& target, const NeighbourRows& rows,
                   const Mesh& mesh, Array<Vertex>& other);
 
+/// What a local relaxation may move.
+struct SpringPart {
+  NeighbourRows rows;            ///< of the vertices that may move
+  std::vector<Index> triangles;  ///< all that have one of them as a corner
+};
+
+/// The same for a part; the other vertices stay. `other` goes by place in part.rows: where each
+/// vertex was a round ago, or empty; it receives where each was before this round.
+void spring_round(parallel::Executor& exec, const Target& target, const SpringPart& part,
+                  Mesh& mesh, Array<Vertex>& other);
+
 }  // namespace delos

@@ -111,19 +111,40 @@ std::int64_t restore_delaunay(Mesh& mesh, const Ellipsoid& surface, std::span<co
   return n_flips;
 }
 
+namespace {
+
+constexpr std::int64_t kScanGrain = 8192;  // triangles a task: about 0.5 ms
+
+bool has_illegal_side(const Mesh& mesh, const Ellipsoid& surface, Index tri) {
+  return is_illegal(mesh, surface, tri, 0) || is_illegal(mesh, surface, tri, 1) ||
+         is_illegal(mesh, surface, tri, 2);
+}
+
+}  // namespace
+
 std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
                                          const Ellipsoid& surface, std::vector<Index>* touched) {
-  constexpr std::int64_t kGrain = 8192;  // about 0.5 ms
   const std::vector<Index> seeds = parallel::collect<Index>(
-      exec, mesh.n_triangles(), kGrain,
+      exec, mesh.n_triangles(), kScanGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
           if (is_clearly_acute(mesh, mesh.triangle(tri))) continue;
-          for (int side = 0; side < 3; ++side) {
-            if (!is_illegal(mesh, surface, tri, side)) continue;
-            found.push_back(tri);
-            break;
-          }
+          if (has_illegal_side(mesh, surface, tri)) found.push_back(tri);
+        }
+      });
+  return restore_delaunay(mesh, surface, seeds, touched);
+}
+
+std::int64_t restore_delaunay_around(parallel::Executor& exec, Mesh& mesh, const Ellipsoid& surface,
+                                     std::span<const Index> triangles,
+                                     std::vector<Index>* touched) {
+  const std::vector<Index> seeds = parallel::collect<Index>(
+      exec, static_cast<std::int64_t>(triangles.size()), kScanGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        // An acute one, too: the obtuse one across its illegal side may not be listed.
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Index tri = triangles[static_cast<std::size_t>(i)];
+          if (has_illegal_side(mesh, surface, tri)) found.push_back(tri);
         }
       });
   return restore_delaunay(mesh, surface, seeds, touched);

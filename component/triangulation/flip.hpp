@@ -49,4 +49,9 @@ std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
                                          const Ellipsoid& surface,
                                          std::vector<Index>* touched = nullptr);
 
+/// The same from some triangles only, which may hold repetitions; flips spread from there.
+std::int64_t restore_delaunay_around(parallel::Executor& exec, Mesh& mesh, const Ellipsoid& surface,
+                                     std::span<const Index> triangles,
+                                     std::vector<Index>* touched = nullptr);
+
 }  // namespace delos

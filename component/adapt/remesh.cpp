@@ -1,0 +1,290 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "adapt/remesh.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "adapt/join.hpp"
+#include "triangulation/flip.hpp"
+
+namespace delos {
+namespace {
+
+constexpr std::int64_t kScanGrain = 16384;  // items a task: some ten microseconds
+constexpr double kShortestSide = 0.65;      // of the spacing: what every grid is certified for
+constexpr int kReleaseRings = 2;            // around a triangle that misses the certificate
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+Remeshed unchanged(const Mesh& mesh) {
+  Remeshed out{mesh, std::vector<Index>(mesh.vertices.size())};
+  std::iota(out.new_id.begin(), out.new_id.end(), 0);
+  return out;
+}
+
+Remeshed rebuild(Context& context, const RemeshInput& input, const RemeshOptions& options,
+                 RemeshReport& report) {
+  RefineReport refined;
+  Remeshed out{refine(context, input.surface, input.spacing, options.refine, refined),
+               std::vector<Index>(input.mesh.vertices.size(), kNone)};
+  report.relax = relax(context, input.surface, input.spacing, options.relax, out.mesh);
+  report.n_removed = input.mesh.n_vertices();
+  report.n_inserted = out.mesh.n_vertices();
+  report.changed_area = 1.0;
+  return out;
+}
+
+// Which vertices of the joined mesh may move, and the spacing that these are to have.
+std::vector<char> set_free(parallel::Executor& exec, const SpacingField& spacing,
+                           const Region& region, Joined& joined) {
+  std::vector<char> is_free(joined.mesh.vertices.size(), 0);
+  std::fill(is_free.begin() + joined.first_inserted, is_free.end(), 1);
+  parallel::for_index(exec, static_cast<std::int64_t>(joined.new_id.size()), kScanGrain,
+                      [&](std::int64_t v) {
+                        const Index id = joined.new_id[at(v)];
+                        if (id == kNone || region.change[at(v)] == Change::keep) return;
+                        is_free[at(id)] = 1;
+                        Vertex& vertex = joined.mesh.vertices[at(id)];
+                        vertex.spacing = spacing.at(vertex.x, vertex.y, vertex.z);
+                      });
+  return is_free;
+}
+
+// Triangles that miss the certificate.
+struct Missed {
+  std::vector<Index> triangles;
+  std::int64_t n_obtuse = 0, n_short = 0;
+};
+
+struct Verdict {
+  bool is_obtuse, is_short;
+};
+
+Verdict judge(const SpacingField& spacing, const Mesh& mesh, const Triangle& t) {
+  std::array<Vec3, 3> p;
+  std::array<Vec3, 3> side;
+  for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.position(t.vertex[k]);
+  for (std::size_t k = 0; k < 3; ++k) side[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
+  const double product = side[0].dot(side[1]) < side[1].dot(side[2])
+                             ? std::max(side[1].dot(side[2]), side[2].dot(side[0]))
+                             : std::max(side[0].dot(side[1]), side[2].dot(side[0]));
+  Verdict out{product >= 0.0, false};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec3 middle = 0.5 * (p[(k + 2) % 3] + p[(k + 1) % 3]);
+    const double least = kShortestSide * spacing.at(middle.x(), middle.y(), middle.z());
+    if (side[k].squaredNorm() < least * least) out.is_short = true;
+  }
+  return out;
+}
+
+Missed find_missed(parallel::Executor& exec, const SpacingField& spacing, const Mesh& mesh,
+                   const RelaxPart& part) {
+  struct Found {
+    Index triangle;
+    Verdict verdict;
+  };
+  const auto all = parallel::collect<Found>(
+      exec, static_cast<std::int64_t>(part.triangles.size()), kScanGrain,
+      [&](std::int64_t begin, std::int64_t end, std::vector<Found>& found) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Index tri = part.triangles[at(i)];
+          const Verdict verdict = judge(spacing, mesh, mesh.triangle(tri));
+          if (verdict.is_obtuse || verdict.is_short) found.push_back({tri, verdict});
+        }
+      });
+  Missed out;
+  for (const Found& found : all) {
+    out.triangles.push_back(found.triangle);
+    out.n_obtuse += found.verdict.is_obtuse ? 1 : 0;
+    out.n_short += found.verdict.is_short ? 1 : 0;
+  }
+  return out;
+}
+
+double area(const Mesh& mesh, const std::vector<Index>& triangles) {
+  double total = 0.0;
+  for (const Index tri : triangles) {
+    const auto& v = mesh.triangle(tri).vertex;
+    const Vec3 a = mesh.position(v[0]);
+    total += 0.5 * (mesh.position(v[1]) - a).cross(mesh.position(v[2]) - a).norm();
+  }
+  return total;
+}
+
+// A local remesh from the region to the relaxed mesh.
+class LocalRemesh {
+ public:
+  LocalRemesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
+              const Region& region, RemeshReport& report)
+      : context_(context), input_(input), options_(options), region_(region), report_(report) {}
+
+  Remeshed run(const OldMesh& old);
+
+ private:
+  void fill(const OldMesh& old);
+  bool release(const Missed& missed);
+  Remeshed finish();
+
+  Context& context_;
+  const RemeshInput& input_;
+  const RemeshOptions& options_;
+  const Region& region_;
+  RemeshReport& report_;
+  Mesh mesh_;
+  RelaxPart part_;
+  // Old ids of the vertices that are not free, ascending. Nothing changes their order, so that the
+  // i-th vertex that is not free is kept_[i].
+  std::vector<Index> kept_;
+};
+
+void LocalRemesh::fill(const OldMesh& old) {
+  const Phase phase(context_.monitor, "refine", region_.n_removed);
+  const Holes holes = make_holes(context_, input_.surface, old, region_);
+  const std::vector<TileMesh> fillings = fill_holes(
+      context_, {input_.surface, input_.spacing, options_.refine, old, region_}, holes.holes);
+  Joined joined = join(context_.exec, old, holes, fillings);
+  report_.n_regions = static_cast<std::int64_t>(holes.holes.size());
+  report_.n_inserted = joined.mesh.n_vertices() - joined.first_inserted;
+  report_.n_removed = old.mesh.n_vertices() - joined.first_inserted;
+  std::vector<char> is_free = set_free(context_.exec, input_.spacing, region_, joined);
+  // On an ellipsoid the hull predicate of the tile kernel differs a little from the surface
+  // Delaunay triangulation everywhere.
+  std::vector<Index> suspects = std::move(joined.hole_sides);
+  if (!input_.surface.is_sphere()) {
+    suspects.resize(at(joined.mesh.n_triangles() - joined.first_filling));
+    std::iota(suspects.begin(), suspects.end(), joined.first_filling);
+  }
+  mesh_ = std::move(joined.mesh);
+  restore_delaunay_around(context_.exec, mesh_, input_.surface, suspects);
+  part_ = make_relax_part(context_.exec, mesh_, std::move(is_free));
+  for (Index v = 0; v < old.mesh.n_vertices(); ++v) {
+    if (region_.change[at(v)] == Change::keep) kept_.push_back(v);
+  }
+}
+
+// Sets the vertices around the triangles free; false when there is none that may be.
+bool LocalRemesh::release(const Missed& missed) {
+  const std::vector<Index> at_vertex = triangle_at_vertex(context_.exec, mesh_);
+  std::vector<char>& is_free = part_.is_free;
+  // 2: near, but not free yet.
+  std::vector<Index> near;
+  for (const Index tri : missed.triangles) {
+    const auto& v = mesh_.triangle(tri).vertex;
+    near.insert(near.end(), v.begin(), v.end());
+  }
+  for (int ring = 0; ring < kReleaseRings; ++ring) {
+    const std::size_t end = near.size();
+    for (std::size_t i = 0; i < end; ++i) {
+      const Index first = at_vertex[at(near[i])];
+      Index tri = first;
+      do {
+        const Triangle& t = mesh_.triangle(tri);
+        const auto k = at(next_corner(corner_at(t, near[i])));
+        near.push_back(t.vertex[k]);
+        tri = t.neighbour[k];
+      } while (tri != first);
+    }
+    std::sort(near.begin(), near.end());
+    near.erase(std::unique(near.begin(), near.end()), near.end());
+  }
+  std::vector<Index> still_kept;
+  std::size_t next_kept = 0;
+  for (Index v = 0; v < mesh_.n_vertices(); ++v) {
+    if (is_free[at(v)] != 0) continue;
+    const Index old_id = kept_[next_kept++];
+    if (region_.is_barred[at(old_id)] == 0 && std::binary_search(near.begin(), near.end(), v)) {
+      is_free[at(v)] = 1;
+      Vertex& vertex = mesh_.vertices[at(v)];
+      vertex.spacing = input_.spacing.at(vertex.x, vertex.y, vertex.z);
+    } else {
+      still_kept.push_back(old_id);
+    }
+  }
+  const bool has_released = still_kept.size() < kept_.size();
+  kept_ = std::move(still_kept);
+  return has_released;
+}
+
+Remeshed LocalRemesh::run(const OldMesh& old) {
+  fill(old);
+  const Target target{input_.surface, input_.spacing};
+  report_.relax = relax_part(context_, target, options_.relax, part_, mesh_);
+  RelaxOptions again = options_.relax;
+  again.spring_rounds = 0;
+  for (;;) {
+    part_ = make_relax_part(context_.exec, mesh_, std::move(part_.is_free));
+    const Missed missed = find_missed(context_.exec, input_.spacing, mesh_, part_);
+    report_.n_obtuse = missed.n_obtuse;
+    report_.n_short = missed.n_short;
+    if (missed.triangles.empty() || report_.release_rounds == options_.release_rounds ||
+        !release(missed)) {
+      break;
+    }
+    ++report_.release_rounds;
+    part_ = make_relax_part(context_.exec, mesh_, std::move(part_.is_free));
+    relax_part(context_, target, again, part_, mesh_);
+  }
+  return finish();
+}
+
+Remeshed LocalRemesh::finish() {
+  report_.n_kept = static_cast<std::int64_t>(kept_.size());
+  report_.n_moved = mesh_.n_vertices() - report_.n_kept - report_.n_inserted;
+  report_.changed_area = area(mesh_, part_.triangles);
+  Remeshed out{std::move(mesh_), std::vector<Index>(region_.change.size(), kNone)};
+  std::size_t next_kept = 0;
+  for (Index v = 0; v < out.mesh.n_vertices(); ++v) {
+    if (part_.is_free[at(v)] == 0) out.new_id[at(kept_[next_kept++])] = v;
+  }
+  return out;
+}
+
+}  // namespace
+
+const char* to_string(RemeshKind kind) {
+  switch (kind) {
+    case RemeshKind::nothing:
+      return "nothing";
+    case RemeshKind::local:
+      return "local";
+    case RemeshKind::full:
+      return "full";
+  }
+  return "unknown";
+}
+
+Remeshed remesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
+                RemeshReport& report) {
+  const Mesh& mesh = input.mesh;
+  DELOS_CHECK(input.is_fixed.empty() || input.is_fixed.size() == mesh.vertices.size(),
+              ErrorKind::internal, "the mask of fixed vertices has ", input.is_fixed.size(),
+              " entries for ", mesh.n_vertices(), " vertices.");
+  report = {};
+  const std::vector<Index> at_vertex = triangle_at_vertex(context.exec, mesh);
+  const OldMesh old{mesh, at_vertex};
+  const Region region =
+      find_region(context.exec, old, input.spacing, options.region, input.is_fixed);
+  report.n_wanted = region.n_wanted;
+  report.n_held = region.n_held;
+  report.n_kept = mesh.n_vertices();
+  if (region.n_removed == 0) {
+    report.reason = "the spacing is still right, or off at too few vertices to be worth a change";
+    return unchanged(mesh);
+  }
+  const double share = static_cast<double>(region.n_removed) / mesh.n_vertices();
+  const bool has_fixed = std::any_of(input.is_fixed.begin(), input.is_fixed.end(),
+                                     [](char fixed) { return fixed != 0; });
+  if (share > options.full_share && !has_fixed) {
+    report.kind = RemeshKind::full;
+    report.reason = text("the spacing is off around ", share,
+                         " of the vertices: making everything anew costs less");
+    return rebuild(context, input, options, report);
+  }
+  report.kind = RemeshKind::local;
+  report.reason = text("the spacing is off around ", share, " of the vertices");
+  return LocalRemesh(context, input, options, region, report).run(old);
+}
+
+}  // namespace delos
