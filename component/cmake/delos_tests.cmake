@@ -42,10 +42,12 @@ function(delos_mpi_test name n_processes)
   add_test(NAME "${name}" COMMAND ${MPIEXEC_EXECUTABLE} ${MPIEXEC_NUMPROC_FLAG} ${n_processes}
     ${MPIEXEC_PREFLAGS} ${ARGN} ${MPIEXEC_POSTFLAGS})
   # Open MPI wants these, as root and with more processes than cores.
-  set(open_mpi OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+  set(environment OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
     OMPI_MCA_rmaps_base_oversubscribe=1 PRTE_MCA_rmaps_default_mapping_policy=:oversubscribe)
   # MPICH's transports lose a kilobyte in modules that they have unloaded, which no suppression names.
-  set(sanitizers $<$<BOOL:${DELOS_SANITIZE}>:ASAN_OPTIONS=detect_leaks=0>)
+  if(DELOS_SANITIZE)
+    list(APPEND environment ASAN_OPTIONS=detect_leaks=0)
+  endif()
   set_tests_properties("${name}" PROPERTIES LABELS mpi TIMEOUT 60 PROCESSORS 2
-    ENVIRONMENT "${open_mpi};${sanitizers}")
+    ENVIRONMENT "${environment}")
 endfunction()

@@ -48,7 +48,7 @@ HOMES = [
     ("cairo", r"\bcairo_\w+|#include\s*[<\"]cairo", ["component/pictures/canvas.cpp"]),
     ("OpenSSL", r"\bEVP_\w+|#include\s*[<\"]openssl", ["component/core/hash.cpp"]),
     ("METIS", r"\bMETIS_\w+|#include\s*[<\"]metis", ["component/partition/kway.cpp"]),
-    ("MPI", r"\bMPI_\w+|#include\s*[<\"]mpi\.h[>\"]", ["interfaces/mpi/"]),
+    ("MPI", r"\bMPI_\w+|#include\s*[<\"]mpi\.h[>\"]", ["interfaces/mpi/", "interfaces/esmf/team_mpi.cpp"]),
     ("CLI11", r"\bCLI::|#include\s*[<\"]CLI/", ["component/app/"]),
 ]
 
