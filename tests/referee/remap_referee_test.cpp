@@ -68,5 +68,5 @@ TEST_CASE("CDO's conservative remapping of the same cells gives the same values"
   for (std::size_t i = 0; i < ours.size(); ++i) {
     worst = std::max(worst, std::abs(ours[i] / theirs[i] - 1.0));
   }
-  CHECK(worst < 1e-9);
+  CHECK(worst < 1e-12);  // measured 8e-15
 }
