@@ -9,11 +9,11 @@ module delos_binding
   private :: c_char, c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr, c_size_t
 
   ! As delos_status in delos.h, which says what they mean.
-  integer, parameter :: DELOS_SUCCESS = 0, DELOS_ERROR_STATE = 1, &
+  integer, parameter :: DELOS_SUCCESS = 0, DELOS_ERROR_STATE = 42, &
     DELOS_ERROR_ARGUMENT = 6, DELOS_ERROR_CONFIG = 9, DELOS_ERROR_INPUT = 21, &
     DELOS_ERROR_OUTPUT = 22, DELOS_ERROR_RESOURCE = 30, DELOS_ERROR_NOT_FOUND = 41, &
     DELOS_ERROR_INTERNAL = 45, &
-    DELOS_ERROR_QUALITY = 56, DELOS_ERROR_CANCELLED = 1001
+    DELOS_ERROR_QUALITY = 54, DELOS_ERROR_CANCELLED = 1001
 
   ! The structures of delos.h, member by member.
   type, bind(c) :: delos_quality

@@ -43,7 +43,7 @@ DELOS_C_API const char* delos_version(void);
  * that a cap hands them on as they are. */
 typedef enum delos_status {
   DELOS_SUCCESS = 0,
-  DELOS_ERROR_STATE = 1,       /* ESMF_RC_OBJ_BAD: a stale handle or one of the wrong kind */
+  DELOS_ERROR_STATE = 42,      /* ESMF_RC_NOT_VALID: a wrong order of calls, a stale handle or one of the wrong kind */
   DELOS_ERROR_ARGUMENT = 6,    /* ESMF_RC_ARG_BAD: an argument is NULL or out of range */
   DELOS_ERROR_CONFIG = 9,      /* ESMF_RC_ARG_VALUE: a setting is missing, unknown or wrong */
   DELOS_ERROR_INPUT = 21,      /* ESMF_RC_FILE_READ: an input file is missing or unusable */
@@ -51,7 +51,7 @@ typedef enum delos_status {
   DELOS_ERROR_RESOURCE = 30,   /* ESMF_RC_MEM: does not fit memory, disk or 32-bit ids */
   DELOS_ERROR_NOT_FOUND = 41,  /* ESMF_RC_NOT_FOUND: a state has no such item */
   DELOS_ERROR_INTERNAL = 45,   /* ESMF_RC_INTNRL_BAD: a bug in delos, or a callback that threw */
-  DELOS_ERROR_QUALITY = 56,    /* ESMF_RC_VAL_OUTOFRANGE: what `require:` asks for is not met */
+  DELOS_ERROR_QUALITY = 54,    /* ESMF_RC_VAL_WRONG: what `require:` asks for is not met */
   DELOS_ERROR_CANCELLED = 1001 /* none in ESMF (1..1000): the caller asked to stop */
 } delos_status;
 
