@@ -42,23 +42,6 @@ std::int64_t first_unusable(parallel::Executor& exec, std::span<const double> va
       [](std::int64_t a, std::int64_t b) { return std::min(a, b); });
 }
 
-void check_sample(parallel::Executor& exec, const Sample& sample, const Statistics& statistics) {
-  DELOS_CHECK(std::isfinite(sample.duration_s) && sample.duration_s > 0.0, ErrorKind::input,
-              "a sample lasts ", sample.duration_s, " s: it must be finite and > 0");
-  DELOS_CHECK(sample.fields.size() == at(statistics.n_fields()), ErrorKind::input, "a sample has ",
-              sample.fields.size(), " fields, the statistics have ", statistics.n_fields());
-  for (std::size_t k = 0; k < sample.fields.size(); ++k) {
-    const std::span<const double> values = sample.fields[k];
-    DELOS_CHECK(values.size() == at(statistics.n_points()), ErrorKind::input, "field ", k,
-                " of a sample has ", values.size(), " values, the statistics have ",
-                statistics.n_points(), " places");
-    const std::int64_t bad = first_unusable(exec, values, sample.may_miss);
-    DELOS_CHECK(bad == statistics.n_points(), ErrorKind::input, "field ", k, " of a sample is ",
-                values[at(bad)], " at ", sample.place ? sample.place(bad) : text("place ", bad),
-                ": every value must be finite");
-  }
-}
-
 void clear(Moments& moments) {
   moments.weight_s = 0.0;
   moments.n_samples = 0;
@@ -172,8 +155,24 @@ StatisticsState Statistics::state() const {
           complete_.spread};
 }
 
+void Statistics::check(parallel::Executor& exec, const Sample& sample) const {
+  DELOS_CHECK(std::isfinite(sample.duration_s) && sample.duration_s > 0.0, ErrorKind::input,
+              "a sample lasts ", sample.duration_s, " s: it must be finite and > 0");
+  DELOS_CHECK(sample.fields.size() == at(n_fields_), ErrorKind::input, "a sample has ",
+              sample.fields.size(), " fields, the statistics have ", n_fields_);
+  for (std::size_t k = 0; k < sample.fields.size(); ++k) {
+    const std::span<const double> values = sample.fields[k];
+    DELOS_CHECK(values.size() == at(n_points_), ErrorKind::input, "field ", k, " of a sample has ",
+                values.size(), " values, the statistics have ", n_points_, " places");
+    const std::int64_t bad = first_unusable(exec, values, sample.may_miss);
+    DELOS_CHECK(bad == n_points_, ErrorKind::input, "field ", k, " of a sample is ",
+                values[at(bad)], " at ", sample.place ? sample.place(bad) : text("place ", bad),
+                ": every value must be finite");
+  }
+}
+
 void Statistics::add(parallel::Executor& exec, const Sample& sample) {
-  check_sample(exec, sample, *this);
+  check(exec, sample);
   elapsed_s_ += sample.duration_s;
   double left_s = sample.duration_s;
   if (options_.window == Window::fixed) {

@@ -58,6 +58,23 @@ std::vector<FieldTraits> export_traits() {
            .location = Location::grid}};
 }
 
+/// What a component with a section `remesh` tells beside these.
+std::vector<FieldTraits> remesh_export_traits() {
+  return {{.name = "remesh_mismatch",
+           .standard_name = "",
+           .units = "1",
+           .long_name = "share of the area whose spacing was off at the last alarm",
+           .location = Location::grid},
+          {.name = "remesh_decision",
+           .standard_name = "",
+           .units = "1",
+           .long_name = "at the last alarm: 1 remeshed, 0 not, -1 failed",
+           .location = Location::grid}};
+}
+
+/// The only alarm of a component's clock.
+constexpr int kRemeshAlarm = 0;
+
 void declare_all(State& state, const std::vector<FieldTraits>& fields) {
   for (const FieldTraits& traits : fields) state.declare(traits);
 }
@@ -99,6 +116,22 @@ void attach_exports(const State& exports, const std::shared_ptr<const Exported>&
     exports.items()[i]->attach(
         {generation, static_cast<std::int64_t>(spans[i].size()), spans[i], values});
   }
+}
+
+/// Values of remesh_export_traits().
+using Told = decltype(Remesh::told);
+
+/// The remesh's exports stand behind the others.
+void attach_told(const State& exports, const std::shared_ptr<const Told>& told,
+                 std::int64_t generation) noexcept {
+  for (std::size_t i = n_exports; i < exports.items().size(); ++i) {
+    const std::span<const double> value = std::span(*told).subspan(i - n_exports, 1);
+    exports.items()[i]->attach({generation, 1, value, told});
+  }
+}
+
+std::int64_t n_points(const Grid& grid, Location location) {
+  return location == Location::edge ? grid.n_edges() : grid.n_cells();
 }
 
 /// The call that leads on from a stage.
@@ -155,6 +188,10 @@ void Component::advertise() {
     State exports(Intent::exports);
     declare_all(imports, import_traits());
     declare_all(exports, export_traits());
+    if (settings_.remesh) {
+      declare_all(imports, Solution::imports(*settings_.remesh));
+      declare_all(exports, remesh_export_traits());
+    }
     *imports_ = std::move(imports);
     *exports_ = std::move(exports);
   }
@@ -167,18 +204,22 @@ void Component::realize() {
   parallel::Executor exec(options_.threads > 0 ? options_.threads : settings_.threads);
   Monitor monitor(options_.on_progress, options_.on_log, options_.cancel);
   Context context{exec, monitor};
-  put_in_place(std::make_shared<const Product>(generate(context, settings_, {})),
-               last_generation_ + 1);
+  auto product = std::make_shared<const Product>(generate(context, settings_, {}));
+  start_remeshing();
+  put_in_place(std::move(product), last_generation_ + 1);
   stage_ = Stage::realized;
 }
 
 void Component::put_in_place(std::shared_ptr<const Product> product, std::int64_t number) {
   const auto values = exported(product, number);
+  const auto told = std::make_shared<const Told>(remesh_ ? remesh_->told : Told{});
 
   // Nothing throws from here on.
-  const std::int64_t n_cells = product->grid->n_cells();
-  for (const auto& item : imports_->items()) item->attach({number, n_cells, {}, nullptr});
+  for (const auto& item : imports_->items()) {
+    item->attach({number, n_points(*product->grid, item->traits().location), {}, nullptr});
+  }
   attach_exports(*exports_, values, number);
+  attach_told(*exports_, told, number);
   product_ = std::move(product);
   last_generation_ = number;
 }
@@ -192,7 +233,8 @@ void Component::write_restart(const std::string& path, const Clock& host) const 
                 to_string(hosts.calendar()), "), but the last run ended at ", iso_text(mine), " (",
                 to_string(mine.calendar()), "): advance the clock before");
   }
-  delos::write_restart(path, {product_, last_generation_, host, clock_});
+  delos::write_restart(path, {product_, last_generation_, host, clock_, std::nullopt},
+                       remesh_ ? &*remesh_ : nullptr);
 }
 
 Clock Component::read_restart(const std::string& path, const Clock& host) {
@@ -205,6 +247,8 @@ Clock Component::read_restart(const std::string& path, const Clock& host) {
   DELOS_CHECK(theirs == mine, ErrorKind::config, "the restart file ", path, " counts in ",
               to_string(theirs), ", the clock given in ", to_string(mine),
               ": give a clock of that calendar.");
+  start_remeshing();
+  remesh_ = std::move(state.remesh);
   put_in_place(std::move(state.product), state.generation);
   stage_ = Stage::realized;
   if (state.component) {
@@ -220,16 +264,52 @@ void Component::run(const Time& from, const Time& until) {
   DELOS_CHECK(until > from, ErrorKind::state, "run from ", iso_text(from), " until ",
               iso_text(until), ": the end must be later");
   std::optional<Clock> clock = clock_;
-  if (!clock) clock = Clock({.start = from, .step = until - from});
+  if (!clock) {
+    clock = Clock({.start = from, .step = until - from});
+    if (settings_.remesh) clock->add_alarm({.interval = settings_.remesh->interval});
+  }
   DELOS_CHECK(clock->current().calendar() == from.calendar() && clock->current() == from,
               ErrorKind::state, "run from ", iso_text(from), " (", to_string(from.calendar()),
               "), but the component stands at ", iso_text(clock->current()), " (",
               to_string(clock->current().calendar()), "): run every step once, in order");
   clock->advance(until - from);
+  if (remesh_) follow_imports(*clock, (until - from).seconds().to_double());
 
   clock_ = std::move(clock);
   for (const auto& item : exports_->items()) item->stamp(until);
   stage_ = Stage::running;
+}
+
+void Component::start_remeshing() {
+  decision_.reset();
+  remesh_failure_.clear();
+  remesh_.reset();
+  if (settings_.remesh) remesh_.emplace(*settings_.remesh);
+}
+
+void Component::follow_imports(Clock& clock, double duration_s) {
+  parallel::Executor exec(options_.threads > 0 ? options_.threads : settings_.threads);
+  remesh_->solution.add(exec, *imports_, *product_->grid, duration_s);
+  Alarm& alarm = clock.alarm(kRemeshAlarm);
+  if (!alarm.is_ringing()) return;
+  alarm.ringer_off();
+  Monitor monitor(options_.on_progress, options_.on_log, options_.cancel);
+  Context context{exec, monitor};
+  take(try_remesh(context, *product_, clock.current(), *remesh_), clock.current());
+}
+
+void Component::take(RemeshOutcome outcome, const Time& now) {
+  if (outcome.product) {
+    put_in_place(std::move(outcome.product), last_generation_ + 1);
+    remesh_->solution = std::move(*outcome.solution);
+    note_remesh(now, remesh_->policy);
+  }
+  const bool has_failed = !outcome.failure.empty();
+  const double decided = has_failed ? -1.0 : outcome.decision.remesh ? 1.0 : 0.0;
+  remesh_->told = {outcome.decision.mismatch.total(), decided};
+  attach_told(*exports_, std::make_shared<const Told>(remesh_->told), last_generation_);
+  decision_ = std::move(outcome.decision);
+  remesh_failure_ = std::move(outcome.failure);
 }
 
 void Component::finalize() {
@@ -238,6 +318,7 @@ void Component::finalize() {
   release_fields();
   product_.reset();
   clock_.reset();
+  remesh_.reset();
   stage_ = Stage::finalized;
 }
 

@@ -11,6 +11,7 @@
 #include "core/progress.hpp"
 #include "lifecycle/fields.hpp"
 #include "lifecycle/generate.hpp"
+#include "lifecycle/remesh.hpp"
 #include "lifecycle/settings.hpp"
 #include "time/clock.hpp"
 
@@ -44,6 +45,9 @@ class Component {
   void realize();
   /// From one time to a later one: the component's clock goes there and exports are stamped with
   /// it. The first run starts the clock; a later `from` other than its time is an Error(state).
+  /// With a section `remesh` the imports, as they stand, go into its statistics first (Error(input)
+  /// for values that can't be used), and at its alarm the grid may be made anew: a generation on,
+  /// imports without values. A remesh that fails leaves grid and fields: see remesh_failure().
   void run(const Time& from, const Time& until);
   /// The grid, both clocks and the generation into one file, after realize. Error(output) naming
   /// the path, Error(state) when the host's clock does not stand where the last run ended.
@@ -63,6 +67,10 @@ class Component {
   std::shared_ptr<const Product> product() const;
   /// Set by the first run.
   const std::optional<Clock>& clock() const { return clock_; }
+  /// Of the last alarm of `remesh`; none before.
+  const std::optional<Decision>& decision() const { return decision_; }
+  /// Why the remesh of the last alarm failed; empty when none did.
+  const std::string& remesh_failure() const { return remesh_failure_; }
   /// Empty before advertise.
   const std::shared_ptr<State>& imports() const { return imports_; }
   const std::shared_ptr<State>& exports() const { return exports_; }
@@ -71,6 +79,9 @@ class Component {
   [[noreturn]] void refuse(const char* call) const;
   void put_in_place(std::shared_ptr<const Product> product, std::int64_t number);
   void release_fields() noexcept;
+  void start_remeshing();
+  void follow_imports(Clock& clock, double duration_s);
+  void take(RemeshOutcome outcome, const Time& now);
 
   Settings settings_;
   ComponentOptions options_;
@@ -78,6 +89,9 @@ class Component {
   std::int64_t last_generation_ = 0;
   std::shared_ptr<const Product> product_;
   std::optional<Clock> clock_;
+  std::optional<Remesh> remesh_;
+  std::optional<Decision> decision_;
+  std::string remesh_failure_;
   std::shared_ptr<State> imports_;
   std::shared_ptr<State> exports_;
 };

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "adapt/remesh.hpp"
 #include "core/error.hpp"
 #include "dual/build.hpp"
 #include "dual/digest.hpp"
@@ -21,26 +22,6 @@
 
 namespace delos {
 namespace {
-
-struct Sized {
-  SpacingField field;
-  std::optional<LatLonField> table_m;
-};
-
-/// The spacing; its table is kept only when an output needs it.
-Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe) {
-  if (is_constant(recipe) && !settings.output.spacing) {
-    const Phase phase(context.monitor, "spacing", 0);
-    return {build_spacing(context, settings.surface, recipe), std::nullopt};
-  }
-  LatLonField table_m = build_spacing_table(context, settings.surface, recipe);
-  Sized out{is_constant(recipe)
-                ? build_spacing(context, settings.surface, recipe)
-                : SpacingField::table(context.exec, settings.surface, recipe.latitude, table_m),
-            std::nullopt};
-  if (settings.output.spacing) out.table_m = std::move(table_m);
-  return out;
-}
 
 void check_cost(Context& context, const Settings& settings, double n_cells,
                 const GenerateScope& scope) {
@@ -68,6 +49,35 @@ ReportSection relax_section(const RelaxReport& report) {
            {"n_removed", report.n_removed},
            {"n_inserted", report.n_inserted},
            {"n_below_target", report.n_below_target}}};
+}
+
+ReportSection remesh_section(const RemeshReport& report) {
+  return {"remesh",
+          {{"kind", std::string(to_string(report.kind))},
+           {"reason", report.reason},
+           {"n_wanted", report.n_wanted},
+           {"n_held", report.n_held},
+           {"n_regions", report.n_regions},
+           {"n_kept", report.n_kept},
+           {"n_moved", report.n_moved},
+           {"n_removed", report.n_removed},
+           {"n_inserted", report.n_inserted},
+           {"changed_area", report.changed_area}}};
+}
+
+Mesh remeshed(Context& context, const Settings& settings, const SpacingField& spacing,
+              const OldMeshScope& old, std::vector<ReportSection>& sections) {
+  RemeshOptions options;
+  options.region.tolerance = old.tolerance;
+  options.refine = settings.refine;
+  options.relax = settings.relax;
+  RemeshReport report;
+  Remeshed out =
+      remesh(context, {settings.surface, spacing, old.mesh, old.is_fixed}, options, report);
+  sections.push_back(remesh_section(report));
+  context.monitor.log(LogLevel::info,
+                      text("remesh, ", to_string(report.kind), ": ", report.reason));
+  return std::move(out.mesh);
 }
 
 Mesh triangulate(Context& context, const Settings& settings, const SpacingField& spacing,
@@ -197,21 +207,43 @@ OutputContent output_content(const Product& product, const std::string& command)
           {}};
 }
 
+Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe) {
+  if (is_constant(recipe) && !settings.output.spacing) {
+    const Phase phase(context.monitor, "spacing", 0);
+    return {build_spacing(context, settings.surface, recipe), std::nullopt};
+  }
+  LatLonField table_m = build_spacing_table(context, settings.surface, recipe);
+  Sized out{is_constant(recipe)
+                ? build_spacing(context, settings.surface, recipe)
+                : SpacingField::table(context.exec, settings.surface, recipe.latitude, table_m),
+            std::nullopt};
+  if (settings.output.spacing) out.table_m = std::move(table_m);
+  return out;
+}
+
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope) {
   if (!scope.directory.empty()) check_output_folder(scope.directory, 0.0);
+  const Inputs inputs = read_inputs(context, settings);
+  return generate(context, settings, inputs, size(context, settings, inputs.recipe), scope);
+}
+
+Product generate(Context& context, const Settings& settings, const Inputs& inputs, Sized sized,
+                 const GenerateScope& scope) {
   Product product = begin(context, settings);
   Report& report = product.report;
-  const Inputs inputs = read_inputs(context, settings);
   describe_inputs(settings, inputs, report);
   product.elevation_m = inputs.recipe.elevation_m;
-  Sized sized = size(context, settings, inputs.recipe);
   report.expected_vertices = expected_vertices(context.exec, settings.surface, sized.field);
   check_cost(context, settings, report.expected_vertices, scope);
 
-  product.mesh = triangulate(context, settings, sized.field, report.sections);
-  check_count(settings, product.mesh, report.expected_vertices);
+  if (scope.old != nullptr) {
+    product.mesh = remeshed(context, settings, sized.field, *scope.old, report.sections);
+  } else {
+    product.mesh = triangulate(context, settings, sized.field, report.sections);
+    check_count(settings, product.mesh, report.expected_vertices);
+  }
   product.spacing_table_m = std::move(sized.table_m);
-  product.spacing = sized.field;
+  product.spacing = std::move(sized.field);
   finish(context, product, scope);
   return product;
 }

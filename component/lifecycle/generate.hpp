@@ -4,9 +4,11 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
+#include "lifecycle/inputs.hpp"
 #include "lifecycle/outputs.hpp"
 #include "lifecycle/settings.hpp"
 #include "metrics/report.hpp"
@@ -25,10 +27,19 @@ struct Product {
   Report report;
 };
 
+/// A mesh to start from, in place of nothing.
+struct OldMeshScope {
+  const Mesh& mesh;
+  double tolerance = 1.2;      ///< of old over new spacing: what is within stays, bit for bit
+  std::vector<char> is_fixed;  ///< [n_vertices] or empty: cells that stay whatever is wanted
+};
+
 struct GenerateScope {
   bool with_dual = true;
   /// Where files will go: checked before the long computation. Empty: no files.
   std::string directory;
+  /// With it phases "remesh" and so on stand in the place of refine and relax.
+  const OldMeshScope* old = nullptr;
 };
 
 /// Phases: read, spacing, refine, relax, polish, quality, dual. The grid depends on the settings
@@ -38,6 +49,19 @@ struct GenerateScope {
 /// has it as a warning. On that error no grid is written, but, when scope.directory is given and
 /// settings.output.report is on, its report (write_rejected_report).
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
+
+/// A wanted spacing; its table only when the settings write it.
+struct Sized {
+  SpacingField field;
+  std::optional<LatLonField> table_m;
+};
+
+/// Phase "spacing". Errors as build_spacing.
+Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe);
+
+/// The second half of generate(): the grid of a spacing that the recipe of `inputs` gave.
+Product generate(Context& context, const Settings& settings, const Inputs& inputs, Sized sized,
+                 const GenerateScope& scope);
 
 /// What a restart file keeps of a product: all that takes long to make, or can't be made again.
 struct SavedProduct {

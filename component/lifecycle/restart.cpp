@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lifecycle/restart.hpp"
 
+#include <algorithm>
 #include <map>
 #include <span>
 #include <utility>
@@ -30,6 +31,9 @@ constexpr const char* kTriangles = "triangles";
 constexpr const char* kNotes = "report_notes";
 constexpr const char* kSpacing = "spacing";
 constexpr const char* kSpacingTable = "spacing_table";
+constexpr const char* kPolicy = "remesh_policy";
+constexpr const char* kTold = "remesh_told";
+constexpr const char* kStatistics = "statistics_";
 /// How many of the settings that differ a message names.
 constexpr std::size_t kNamedSettings = 5;
 
@@ -107,6 +111,49 @@ std::vector<RestartArray> arrays_of(const Restart& state, const Content& content
   add_table(content.spacing, kSpacing, "units of the largest radius", out);
   add_table(content.table_m, kSpacingTable, "m", out);
   return out;
+}
+
+/// What the statistics and the policy do not have as it is written.
+struct RemeshContent {
+  std::vector<Solution::Saved> saved;
+  std::vector<std::int64_t> policy;
+};
+
+/// Armed; then the time of the last remesh, if there was one: calendar, seconds.
+std::vector<std::int64_t> integers_of(const PolicyState& policy) {
+  std::vector<std::int64_t> out{policy.is_armed ? 1 : 0};
+  if (!policy.last_remesh) return out;
+  const ExactSeconds& seconds = policy.last_remesh->since_year_zero();
+  out.insert(out.end(), {static_cast<std::int64_t>(policy.last_remesh->calendar()), seconds.whole(),
+                         seconds.numerator(), seconds.denominator()});
+  return out;
+}
+
+void add_remesh(const Remesh& remesh, const RemeshContent& content,
+                std::vector<RestartArray>& out) {
+  out.push_back({kPolicy, "armed, and calendar and seconds of the last remesh",
+                 std::span<const std::int64_t>(content.policy)});
+  out.push_back(
+      {kTold, "mismatch and decision of the last alarm", std::span<const double>(remesh.told)});
+  for (const Solution::Saved& one : content.saved) {
+    const std::string name = kStatistics + one.name;
+    const auto add = [&](const char* part, const char* description,
+                         std::span<const double> values) {
+      if (!values.empty()) out.push_back({name + part, description, values});
+    };
+    out.push_back({name + "_counts", "integers of delos::StatisticsState",
+                   std::span<const std::int64_t>(one.statistics.counts)});
+    add("_times", "s, of delos::StatisticsState", one.statistics.times_s);
+    add("_mean", "[fields, places] of the running window", one.statistics.mean);
+    add("_spread", "[fields, places] of the running window, with its weight in s",
+        one.statistics.spread);
+    add("_complete_mean", "[fields, places] of the last complete window",
+        one.statistics.complete_mean);
+    add("_complete_spread", "[fields, places] of the last complete window",
+        one.statistics.complete_spread);
+    add("_lon", "degrees, of the host's grid", one.axes.lon_deg);
+    add("_lat", "degrees, of the host's grid", one.axes.lat_deg);
+  }
 }
 
 // ------------------------------------------------------------------ reading
@@ -191,6 +238,46 @@ Clock read_clock(const RestartFile& file, const char* name) {
   return Clock::restored(clock_state_of(file.integers(name)));
 }
 
+PolicyState policy_of(const RestartFile& file) {
+  const std::vector<std::int64_t> integers = file.integers(kPolicy);
+  constexpr std::size_t kWithTime = 5;
+  DELOS_CHECK(integers.size() == 1 || integers.size() == kWithTime, ErrorKind::input,
+              "the restart file ", file.path(), " has ", integers.size(), " integers as ", kPolicy,
+              ": must be 1 or ", kWithTime, ".");
+  PolicyState out;
+  out.is_armed = integers[0] != 0;
+  if (integers.size() == 1) return out;
+  DELOS_CHECK(integers[1] >= 0 && integers[1] <= static_cast<std::int64_t>(Calendar::day360),
+              ErrorKind::input, "the restart file ", file.path(), " has the calendar ", integers[1],
+              " in ", kPolicy, ".");
+  out.last_remesh =
+      Time(static_cast<Calendar>(integers[1]), ExactSeconds(integers[2], integers[3], integers[4]));
+  return out;
+}
+
+Remesh read_remesh(const RestartFile& file, const RemeshSettings& settings, const Grid& grid) {
+  Remesh out(settings);
+  out.policy = policy_of(file);
+  const std::vector<double> told = file.doubles(kTold);
+  std::copy_n(told.begin(), std::min(told.size(), out.told.size()), out.told.begin());
+  const auto doubles = [&](const std::string& name) {
+    return file.has(name) ? file.doubles(name) : std::vector<double>{};
+  };
+  for (const std::string& field : out.solution.names()) {
+    const std::string name = kStatistics + field;
+    if (!file.has(name + "_counts")) continue;
+    const std::vector<double> mean = doubles(name + "_mean"), spread = doubles(name + "_spread");
+    const std::vector<double> complete_mean = doubles(name + "_complete_mean");
+    const std::vector<double> complete_spread = doubles(name + "_complete_spread");
+    out.solution.restore({field,
+                          {doubles(name + "_lon"), doubles(name + "_lat")},
+                          {file.integers(name + "_counts"), doubles(name + "_times"), mean, spread,
+                           complete_mean, complete_spread}},
+                         grid);
+  }
+  return out;
+}
+
 SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
                         const Settings& settings) {
   std::optional<LatLonField> table_m = read_table(file, kSpacingTable);
@@ -205,9 +292,15 @@ SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
 
 }  // namespace
 
-void write_restart(const std::string& path, const Restart& state) {
+void write_restart(const std::string& path, const Restart& state, const Remesh* remesh) {
   const Content content = content_of(state);
-  write_restart_arrays(path, library_version(), arrays_of(state, content));
+  std::vector<RestartArray> arrays = arrays_of(state, content);
+  RemeshContent of_remesh;
+  if (remesh != nullptr) {
+    of_remesh = {remesh->solution.saved(), integers_of(remesh->policy)};
+    add_remesh(*remesh, of_remesh, arrays);
+  }
+  write_restart_arrays(path, library_version(), arrays);
 }
 
 Restart read_restart(Context& context, const Settings& settings, const std::string& path) {
@@ -221,7 +314,10 @@ Restart read_restart(Context& context, const Settings& settings, const std::stri
   SavedProduct saved = read_saved(context.exec, file, settings);
   phase.reset();
   auto product = std::make_shared<const Product>(resume(context, settings, std::move(saved)));
-  return {std::move(product), generation.front(), std::move(host), std::move(component)};
+  std::optional<Remesh> remesh;
+  if (settings.remesh) remesh = read_remesh(file, *settings.remesh, *product->grid);
+  return {std::move(product), generation.front(), std::move(host), std::move(component),
+          std::move(remesh)};
 }
 
 }  // namespace delos

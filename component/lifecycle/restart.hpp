@@ -8,6 +8,7 @@
 
 #include "core/progress.hpp"
 #include "lifecycle/generate.hpp"
+#include "lifecycle/remesh.hpp"
 #include "time/clock.hpp"
 
 namespace delos {
@@ -18,10 +19,12 @@ struct Restart {
   std::int64_t generation = 0;
   Clock host;                      ///< with its alarms
   std::optional<Clock> component;  ///< none before the first run
+  std::optional<Remesh> remesh;    ///< with a section `remesh`; read only
 };
 
 /// Error(output) naming the path; the former file then stays.
-void write_restart(const std::string& path, const Restart& state);
+/// `remesh`: what the component has of it, or null; state.remesh is not looked at.
+void write_restart(const std::string& path, const Restart& state, const Remesh* remesh);
 
 /// Error(input) naming the file as RestartFile, and for a file of another configuration: the
 /// message has both digests and the settings that differ.

@@ -171,10 +171,10 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   Settings out;
   out.folder = folder;
   ConfigNode effective;
-  MapReader root(root_node, "", effective,
-                 {"title", "surface", "generator", "subdivisions", "spacing", "sizing",
-                  "bathymetry", "refine", "relax", "output", "require", "remesh", "threads",
-                  "data_path"});
+  MapReader root(
+      root_node, "", effective,
+      {"title", "surface", "generator", "subdivisions", "spacing", "sizing", "bathymetry", "refine",
+       "relax", "output", "require", "remesh", "threads", "data_path"});
   out.title = root.string("title", "");
   read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
   constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,

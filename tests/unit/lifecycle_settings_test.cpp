@@ -236,3 +236,90 @@ sizing:
   CHECK(std::get<EddyThreshold>(eke.form).amplitude == doctest::Approx(0.2));
   CHECK(std::get<EddySource>(sources[10].source.source).quantity == EddyQuantity::height_variance);
 }
+
+TEST_CASE("the section remesh is read with its defaults, and left out there is none") {
+  CHECK_FALSE(read(kUniform).remesh);
+  const std::string section =
+      "remesh: {interval: P1M, sources: [{type: eke}], statistics: {window: exponential, "
+      "length: 30 d}}\n";
+  const Settings settings = read(std::string(kUniform) + section);
+  REQUIRE(settings.remesh);
+  const RemeshSettings& remesh = *settings.remesh;
+  CHECK(remesh.interval == TimeInterval::of_months(1));
+  CHECK(remesh.policy.tau == 1.2);
+  CHECK(remesh.policy.threshold == 0.1);
+  CHECK(remesh.policy.hysteresis == 0.5);
+  CHECK_FALSE(remesh.policy.minimum_interval);
+  CHECK(remesh.statistics.window == Window::exponential);
+  CHECK(remesh.statistics.length_s == 30.0 * 86400.0);
+  REQUIRE(remesh.sources.size() == 1);
+  CHECK(remesh.sources[0].field == SolutionField::velocity);
+  CHECK(remesh.sources[0].law.fill_amplitude == 0.03);
+  CHECK(remesh.with_static);
+  CHECK(remesh.cells == 0);
+  CHECK(remesh.fixed.empty());
+  CHECK(settings.text.find("hysteresis: 0.5") != std::string::npos);
+  CHECK(read(settings.text).text == settings.text);
+}
+
+TEST_CASE("every source and region of a remesh is read") {
+  const Settings settings = read(std::string(kUniform) + R"(
+remesh:
+  interval: P10D
+  minimum_interval: P1M
+  sources:
+    - {type: eke, from: normal_velocity, form: threshold, threshold: 0.02 m2/s2, spacing_below: 60 km, spacing_above: 15 km}
+    - {type: eke, from: energy, smooth: 1 deg}
+    - {type: ssh_variability, quiet: [0.02 m, 60 km], energetic: [0.3 m, 10 km]}
+    - {type: vorticity_gradient, quiet: [1e-12, 60 km], energetic: [1e-10, 10 km], clamp: 1e-9}
+    - {type: indicator, form: threshold, threshold: 0.5, spacing_below: 60 km, spacing_above: 15 km}
+  with_static: false
+  tau: 1.3
+  threshold: 0.2
+  hysteresis: 0.25
+  cells: 5000
+  fixed:
+    - {type: disc, centre: [10 deg, 50 deg], radius: 500 km}
+    - {type: box, west: 170 deg, east: -170 deg, south: -10 deg, north: 10 deg}
+)");
+  const RemeshSettings& remesh = *settings.remesh;
+  constexpr SolutionField kFields[] = {SolutionField::normal_velocity, SolutionField::energy,
+                                       SolutionField::height, SolutionField::vorticity_gradient,
+                                       SolutionField::indicator};
+  REQUIRE(remesh.sources.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(remesh.sources[i].field == kFields[i]);
+  CHECK(std::get<EddyThreshold>(remesh.sources[0].law.form).amplitude == doctest::Approx(0.2));
+  CHECK(remesh.sources[1].law.smooth_rad == doctest::Approx(kRadPerDeg));
+  CHECK(remesh.sources[2].law.quantity == EddyQuantity::height_variance);
+  CHECK(remesh.sources[3].law.max_energy == 1e-9);
+  CHECK(remesh.sources[3].law.quantity == EddyQuantity::amplitude);
+  CHECK_FALSE(remesh.with_static);
+  CHECK(remesh.policy.minimum_interval == TimeInterval::of_months(1));
+  CHECK(remesh.policy.tau == 1.3);
+  CHECK(remesh.cells == 5000);
+  REQUIRE(remesh.fixed.size() == 2);
+  CHECK(std::get<FixedDisc>(remesh.fixed[0]).radius_rad == doctest::Approx(500.0 / 6371.22));
+  CHECK(std::get<FixedBox>(remesh.fixed[1]).east_deg == -170.0);
+}
+
+TEST_CASE("mistakes in the section remesh are named") {
+  const auto error = [](const std::string& block) {
+    return error_of(std::string(kUniform) + "remesh: {" + block + "}\n");
+  };
+  const std::string sources = ", sources: [{type: eke}]";
+  has(error("sources: [{type: eke}]"), "remesh.interval");
+  has(error("interval: P1M"), "remesh.sources: at least one source is needed");
+  has(error("interval: monthly" + sources), "remesh.interval: ");
+  has(error("interval: -P1M" + sources), "does not lead forward");
+  has(error("interval: P1M, tau: 1" + sources), "remesh.tau: 1: must be between 1.05 and 10");
+  has(error("interval: P1M, treshold: 0.1" + sources), "Did you mean 'threshold'?");
+  has(error("interval: P1M, threshold: 2" + sources), "must be between 0 and 1");
+  has(error("interval: P1M, sources: [{type: ek}]"), "'ek' is no source of a remesh. Did you mean");
+  has(error("interval: P1M, sources: [{type: eke, file: e.nc}]"), "unknown key");
+  has(error("interval: P1M, sources: [{type: indicator}]"), "quiet: give [amplitude, spacing]");
+  has(error("interval: P1M, statistics: {window: fixed}" + sources), "remesh.statistics.length");
+  has(error("interval: P1M, statistics: {length: 3 d}" + sources), "Remove it");
+  has(error("interval: P1M, fixed: [{type: disk}]" + sources), "remesh.fixed.0.type");
+  has(error_of("generator: icosahedral\nsubdivisions: 4\nremesh: {interval: P1M}\n"),
+      "remesh: is not used by generator: icosahedral");
+}

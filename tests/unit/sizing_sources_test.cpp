@@ -158,6 +158,10 @@ TEST_CASE("eddy spacing is linear in the amplitude, or two-valued, and quiet whe
   source.quantity = EddyQuantity::height_variance;
   CHECK(eddy_spacing_m(source, 0.19 * 0.19) == doctest::Approx(60e3));
   CHECK(eddy_spacing_m(source, 0.21 * 0.21) == doctest::Approx(15e3));
+  source.quantity = EddyQuantity::amplitude;
+  CHECK(eddy_spacing_m(source, 0.19) == doctest::Approx(60e3));
+  CHECK(eddy_spacing_m(source, 0.21) == doctest::Approx(15e3));
+  CHECK(eddy_spacing_m(source, std::nan("")) == doctest::Approx(60e3));
 }
 
 TEST_CASE("a budget scales the spacing until the count is met") {
