@@ -28,7 +28,7 @@ void add_mesh(CLI::App& app, Arguments& out, Words& overrides) {
 CLI::App* add_reader(CLI::App& app, Arguments& out, Command command, const char* name,
                      const char* help) {
   CLI::App* const reader = app.add_subcommand(name, help);
-  reader->add_option("FILE", out.file, "an MPAS or UGRID file, or a folder with such files")
+  reader->add_option("FILE", out.file, "a grid file of any kind, or a folder with such files")
       ->required();
   reader->add_option("--threads", out.threads, "threads")->check(CLI::Range(0, 4096));
   if (command == Command::plot) {
@@ -45,6 +45,17 @@ void add_check(CLI::App& app, Arguments& out, Words& require) {
                    "key=value beside or in place of what the file's configuration requires, e.g. "
                    "--require 'angle_max=85 deg'")
       ->allow_extra_args(false);
+}
+
+void add_convert(CLI::App& app, Arguments& out) {
+  CLI::App* const convert = app.add_subcommand("convert", "make a grid file of another kind");
+  convert->add_option("IN", out.file, "a grid file of any kind")->required();
+  convert->add_option("OUT", out.directory, "the new file; a folder for FESOM2")->required();
+  convert->add_option("--to", out.to,
+                      "mpas, ugrid_triangles, ugrid_cells, scrip, esmf, vtu, gmsh, jigsaw or fesom; "
+                      "else by the ending, e.g. .scrip.nc");
+  convert->add_option("--threads", out.threads, "threads")->check(CLI::Range(0, 4096));
+  convert->callback([&out] { out.command = Command::convert; });
 }
 
 Pairs split(const Words& words, const char* option, const char* example) {
@@ -77,6 +88,7 @@ ParseResult parse_arguments(int argc, const char* const* argv, Arguments& out) {
   Words overrides, require;
   add_mesh(app, out, overrides);
   add_check(app, out, require);
+  add_convert(app, out);
   add_reader(app, out, Command::info, "info", "counts, digest, certificate and origin of a grid");
   add_reader(app, out, Command::plot, "plot", "pictures of a grid");
   out.command_line = command_line(argc, argv);

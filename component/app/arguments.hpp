@@ -7,12 +7,13 @@
 
 namespace delos::app {
 
-enum class Command { mesh, check, info, plot };
+enum class Command { mesh, check, convert, info, plot };
 
 struct Arguments {
   Command command = Command::mesh;
   std::string file;       ///< configuration (mesh) or grid
-  std::string directory;  ///< -o; empty: what the configuration says
+  std::string directory;  ///< -o; empty: what the configuration says; convert: the new file
+  std::string to;         ///< convert: the kind of the new file; empty: by its ending
   int threads = 0;        ///< 0: what the configuration says
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value

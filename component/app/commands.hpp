@@ -9,6 +9,7 @@ namespace delos::app {
 /// Each runs one command and returns the exit status; errors are thrown.
 int run_mesh(const Arguments& arguments, const std::atomic<bool>& cancel);
 int run_check(const Arguments& arguments, const std::atomic<bool>& cancel);
+int run_convert(const Arguments& arguments, const std::atomic<bool>& cancel);
 int run_info(const Arguments& arguments);
 int run_plot(const Arguments& arguments, const std::atomic<bool>& cancel);
 

@@ -22,6 +22,8 @@ int run(const Arguments& arguments) {
       return run_check(arguments, cancel);
     case Command::info:
       return run_info(arguments);
+    case Command::convert:
+      return run_convert(arguments, cancel);
     case Command::plot:
       return run_plot(arguments, cancel);
   }

@@ -3,11 +3,11 @@
 // UGRID 1.0 files that CDO and ESMF read too, on any ellipsoid, and the spacing on its lat-lon
 // table.
 #include <array>
-#include <optional>
 #include <string>
 #include <vector>
 
 #include "dual/grid.hpp"
+#include "io/face_mesh.hpp"
 #include "io/netcdf.hpp"
 #include "io/provenance.hpp"
 #include "sizing/spacing.hpp"
@@ -44,17 +44,11 @@ void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenan
                        const UgridOptions& options = {});
 
 /// A UGRID topology of dimension 2.
-struct UgridMesh {
-  std::string topology;              ///< name of the variable
-  std::vector<LonLat> node;          ///< radians, lon in (-pi, pi]
-  std::vector<LonLat> face_centre;   ///< the same; empty when the file has none
-  Ragged<Index> nodes_on_face;       ///< from 0, in the order of the file
-  std::vector<double> face_area_m2;  ///< empty when the file has none
+struct UgridMesh : FaceMesh {
+  std::string topology;  ///< name of the variable
   /// Where the file has `delos_edge_spacing`: that, and the nodes of its edges; else empty.
   std::vector<double> edge_spacing_m;
   std::vector<std::array<Index, 2>> nodes_on_edge;  ///< from 0
-  std::optional<Ellipsoid> ellipsoid;               ///< when the file says so
-  LatitudeKind latitude = LatitudeKind::geodetic;
 };
 
 /// Reads the first topology of dimension 2 of any UGRID file: start_index 0 or 1, padding by

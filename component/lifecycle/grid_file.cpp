@@ -3,13 +3,20 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <fstream>
 #include <tuple>
 
 #include "core/error.hpp"
+#include "io/esmf_mesh.hpp"
+#include "io/fesom.hpp"
+#include "io/gmsh.hpp"
+#include "io/jigsaw.hpp"
 #include "io/mpas.hpp"
 #include "io/netcdf.hpp"
 #include "io/provenance.hpp"
+#include "io/scrip.hpp"
 #include "io/ugrid.hpp"
+#include "io/vtu.hpp"
 #include "lifecycle/edge_spacing.hpp"
 
 namespace delos {
@@ -21,6 +28,14 @@ using Corners = std::vector<std::array<Index, 3>>;
 
 bool is_mpas(const netcdf::Reader& file) {
   return file.has_variable("cellsOnVertex") && file.has_variable("verticesOnCell");
+}
+
+bool is_scrip(const netcdf::Reader& file) {
+  return file.has_variable("grid_center_lat") && file.has_variable("grid_corner_lat");
+}
+
+bool is_esmf_mesh(const netcdf::Reader& file) {
+  return file.has_variable("nodeCoords") && file.has_variable("elementConn");
 }
 
 bool is_ugrid(const netcdf::Reader& file) {
@@ -100,21 +115,21 @@ void read_mpas_into(GridFile& out) {
 }
 
 /// Corners of triangular faces.
-Corners face_corners(const UgridMesh& ugrid) {
-  Corners corners(static_cast<std::size_t>(ugrid.nodes_on_face.offsets.n_rows()));
+Corners face_corners(const FaceMesh& faces) {
+  Corners corners(static_cast<std::size_t>(faces.nodes_on_face.offsets.n_rows()));
   for (std::size_t i = 0; i < corners.size(); ++i) {
-    const auto row = ugrid.nodes_on_face.row(static_cast<std::int64_t>(i));
+    const auto row = faces.nodes_on_face.row(static_cast<std::int64_t>(i));
     std::copy(row.begin(), row.end(), corners[i].begin());
   }
   return corners;
 }
 
 /// The triangles of a Voronoi diagram: the three faces around each node, counter-clockwise.
-Corners node_faces(const std::string& path, const UgridMesh& ugrid, const Array<Vertex>& centres) {
-  Corners faces(ugrid.node.size(), {kNone, kNone, kNone});
-  for (std::int64_t face = 0; face < ugrid.nodes_on_face.offsets.n_rows(); ++face) {
-    for (const Index node : ugrid.nodes_on_face.row(face)) {
-      auto& row = faces[static_cast<std::size_t>(node)];
+Corners node_faces(const std::string& path, const FaceMesh& faces, const Array<Vertex>& centres) {
+  Corners around(faces.node.size(), {kNone, kNone, kNone});
+  for (std::int64_t face = 0; face < faces.nodes_on_face.offsets.n_rows(); ++face) {
+    for (const Index node : faces.nodes_on_face.row(face)) {
+      auto& row = around[static_cast<std::size_t>(node)];
       const auto slot = std::find(row.begin(), row.end(), kNone);
       DELOS_CHECK(slot != row.end(), ErrorKind::input, path, ": node ", node,
                   " belongs to more than three faces; this is no Voronoi diagram of points in "
@@ -122,14 +137,14 @@ Corners node_faces(const std::string& path, const UgridMesh& ugrid, const Array<
       *slot = static_cast<Index>(face);
     }
   }
-  for (auto& row : faces) {
+  for (auto& row : around) {
     if (row[2] == kNone) continue;  // a border; mesh_from_triangles is not asked then
     const auto at = [&](std::size_t k) {
       return centres[static_cast<std::size_t>(row[k])].position();
     };
     if (at(0).cross(at(1)).dot(at(2)) < 0.0) std::swap(row[1], row[2]);
   }
-  return faces;
+  return around;
 }
 
 Array<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lon_lat) {
@@ -141,30 +156,123 @@ Array<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lo
   return out;
 }
 
-void read_ugrid_into(GridFile& out) {
-  const UgridMesh ugrid = read_ugrid(out.path);
-  if (ugrid.ellipsoid) out.surface = *ugrid.ellipsoid;
-  out.latitude = ugrid.latitude;
-  const auto n_faces = static_cast<std::size_t>(ugrid.nodes_on_face.offsets.n_rows());
+/// Triangles become the mesh, other polygons the Voronoi cells of one; `edges` when the file has the
+/// spacing there.
+void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = nullptr) {
+  if (faces.ellipsoid) out.surface = *faces.ellipsoid;
+  out.latitude = faces.latitude;
+  const auto n_faces = static_cast<std::size_t>(faces.nodes_on_face.offsets.n_rows());
   bool all_triangles = true;
   for (std::size_t i = 0; i < n_faces && all_triangles; ++i) {
-    all_triangles = ugrid.nodes_on_face.row(static_cast<std::int64_t>(i)).size() == 3;
+    all_triangles = faces.nodes_on_face.row(static_cast<std::int64_t>(i)).size() == 3;
   }
   if (all_triangles) {
-    out.mesh = mesh_from_triangles(surface_points(out, ugrid.node), face_corners(ugrid));
-    read_spacing(out, {ugrid.nodes_on_edge, EdgeEnds::vertices, ugrid.edge_spacing_m});
+    out.mesh = mesh_from_triangles(surface_points(out, faces.node), face_corners(faces));
+    if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::vertices, edges->edge_spacing_m});
     return;
   }
-  DELOS_CHECK(ugrid.face_centre.size() == n_faces, ErrorKind::input, out.path,
-              ": the faces are no triangles and have no face_coordinates, so the points of the "
-              "Voronoi diagram are not known.");
-  Array<Vertex> centres = surface_points(out, ugrid.face_centre);
-  const Corners corners = node_faces(out.path, ugrid, centres);
+  DELOS_CHECK(faces.face_centre.size() == n_faces, ErrorKind::input, out.path,
+              ": the faces are no triangles and have no centres (face_coordinates in UGRID), so the "
+              "points of the Voronoi diagram are not known.");
+  Array<Vertex> centres = surface_points(out, faces.face_centre);
+  const Corners corners = node_faces(out.path, faces, centres);
   const bool is_closed =
       std::none_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
   if (!is_closed) return;
   out.mesh = mesh_from_triangles(std::move(centres), corners);
-  read_spacing(out, {ugrid.nodes_on_edge, EdgeEnds::triangles, ugrid.edge_spacing_m});
+  if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::triangles, edges->edge_spacing_m});
+}
+
+void take_triangles(GridFile& out, TriangleSet set) {
+  out.surface = *set.surface;
+  out.latitude = set.latitude;
+  orient(set);
+  if (!is_closed(set)) {
+    out.triangles = std::move(set);
+    return;
+  }
+  Array<Vertex> vertices(set.position.size());
+  for (std::size_t i = 0; i < vertices.size(); ++i) {
+    set_position(vertices[i], set.position[i]);
+    vertices[i].spacing = set.spacing_m.empty() ? 0.0 : set.spacing_m[i] / out.surface.scale_m();
+  }
+  out.mesh = mesh_from_triangles(std::move(vertices), set.corners);
+  out.depth_m = std::move(set.depth_m);
+  out.level_m = std::move(set.level_m);
+}
+
+void read_vtu_into(GridFile& out) {
+  VtuMesh vtu = read_vtu(out.path);
+  if (vtu.centre.empty()) {
+    DELOS_CHECK(!vtu.points.corners.empty(), ErrorKind::input, out.path,
+                ": the faces are no triangles and have no cell data `centre`.");
+    take_triangles(out, std::move(vtu.points));
+    return;
+  }
+  FaceMesh faces;
+  faces.ellipsoid = vtu.points.surface;
+  faces.latitude = vtu.points.latitude;
+  const auto places_of = [&](const Array<Vec3>& points) {
+    std::vector<LonLat> places;
+    places.reserve(points.size());
+    for (const Vec3& p : points) places.push_back(faces.ellipsoid->lon_lat(p, faces.latitude));
+    return places;
+  };
+  faces.node = places_of(vtu.points.position);
+  faces.face_centre = places_of(vtu.centre);
+  faces.nodes_on_face = std::move(vtu.nodes_on_face);
+  take_faces(out, faces);
+  if (!out.mesh || vtu.cell_spacing_m.empty()) return;
+  for (std::size_t i = 0; i < vtu.cell_spacing_m.size(); ++i) {
+    out.mesh->vertices[i].spacing = vtu.cell_spacing_m[i] / out.surface.scale_m();
+  }
+}
+
+const char* netcdf_kind(const netcdf::Reader& file) {
+  if (is_mpas(file)) return "MPAS";
+  if (is_ugrid(file)) return "UGRID";
+  if (is_scrip(file)) return "SCRIP";
+  return is_esmf_mesh(file) ? "ESMF mesh" : "";
+}
+
+void read_netcdf_into(GridFile& out) {
+  std::string kind;
+  {
+    const netcdf::Reader file(out.path);
+    kind = netcdf_kind(file);
+    DELOS_CHECK(!kind.empty(), ErrorKind::input, out.path,
+                ": neither MPAS (no cellsOnVertex) nor UGRID (no variable with cf_role = "
+                "mesh_topology) nor SCRIP (no grid_corner_lat) nor an ESMF mesh (no elementConn). "
+                "Give a grid file.");
+    out.origin = read_origin(file, kind.c_str());
+  }
+  if (kind == "MPAS") return read_mpas_into(out);
+  if (kind == "SCRIP") return take_faces(out, read_scrip(out.path));
+  if (kind == "ESMF mesh") return take_faces(out, read_esmf_mesh(out.path));
+  const UgridMesh ugrid = read_ugrid(out.path);
+  take_faces(out, ugrid, &ugrid);
+}
+
+/// The first bytes tell the kinds of text files apart; empty: none of them.
+std::string text_kind(const std::string& path) {
+  if (is_fesom(path)) return "FESOM2";
+  constexpr std::size_t kEnough = 4096;  // comments may go first
+  std::string head(kEnough, '\0');
+  std::ifstream stream(path, std::ios::binary);
+  stream.read(head.data(), static_cast<std::streamsize>(kEnough));
+  head.resize(static_cast<std::size_t>(std::max<std::streamsize>(stream.gcount(), 0)));
+  if (head.rfind("$MeshFormat", 0) == 0) return "Gmsh";
+  if (head.rfind("<?xml", 0) == 0 || head.rfind("<VTKFile", 0) == 0) return "VTU";
+  const bool is_jigsaw =
+      head.find("MSHID=") != std::string::npos || head.find("mshid=") != std::string::npos;
+  return is_jigsaw ? "JIGSAW" : "";
+}
+
+bool is_grid_file(const fs::path& path) {
+  const std::string kind = path.extension().string();
+  if (kind == ".vtu" || kind == ".msh") return true;
+  if (kind == ".out") return is_fesom(path.string());
+  return kind == ".nc" && netcdf_kind(netcdf::Reader(path.string()))[0] != '\0';
 }
 
 }  // namespace
@@ -174,13 +282,12 @@ std::vector<std::string> grid_files(const std::string& path) {
   if (!fs::is_directory(path, ignored)) return {path};
   std::vector<std::string> out;
   for (const auto& entry : fs::directory_iterator(path)) {
-    if (entry.path().extension() != ".nc") continue;
-    const netcdf::Reader file(entry.path().string());
-    if (is_mpas(file) || is_ugrid(file)) out.push_back(entry.path().string());
+    if (is_grid_file(entry.path())) out.push_back(entry.path().string());
   }
   std::sort(out.begin(), out.end());
   DELOS_CHECK(!out.empty(), ErrorKind::input, "the folder ", path,
-              " has no MPAS or UGRID file (*.nc).");
+              " has no MPAS, UGRID, SCRIP or ESMF file (*.nc), and no *.vtu, *.msh or "
+              "nod2d.out.");
   return out;
 }
 
@@ -188,19 +295,18 @@ GridFile read_grid_file(Context& context, const std::string& path) {
   const Phase phase(context.monitor, "read", 0);
   GridFile out;
   out.path = path;
-  bool has_c_grid = false;
-  {
-    const netcdf::Reader file(path);
-    has_c_grid = is_mpas(file);
-    DELOS_CHECK(has_c_grid || is_ugrid(file), ErrorKind::input, path,
-                ": neither MPAS (no cellsOnVertex) nor UGRID (no variable with cf_role = "
-                "mesh_topology). Give a grid file.");
-    out.origin = read_origin(file, has_c_grid ? "MPAS" : "UGRID");
-  }
-  if (has_c_grid) {
-    read_mpas_into(out);
+  out.origin.format = text_kind(path);
+  const std::string& kind = out.origin.format;
+  if (kind == "FESOM2") {
+    take_triangles(out, read_fesom(path));
+  } else if (kind == "Gmsh") {
+    take_triangles(out, read_gmsh(path));
+  } else if (kind == "JIGSAW") {
+    take_triangles(out, read_jigsaw(path));
+  } else if (kind == "VTU") {
+    read_vtu_into(out);
   } else {
-    read_ugrid_into(out);
+    read_netcdf_into(out);
   }
   return out;
 }

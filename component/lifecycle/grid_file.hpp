@@ -8,6 +8,7 @@
 
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
+#include "io/triangle_set.hpp"
 #include "lifecycle/inputs.hpp"
 #include "metrics/certificate.hpp"
 #include "triangulation/mesh.hpp"
@@ -16,7 +17,7 @@ namespace delos {
 
 /// What a file says about where it came from; empty texts where it says nothing.
 struct FileOrigin {
-  std::string format;  ///< "MPAS" or "UGRID"
+  std::string format;  ///< "MPAS", "UGRID", "SCRIP", "ESMF mesh", "VTU", "Gmsh", "JIGSAW", "FESOM2"
   std::string version, config, digest, history;
   std::vector<InputRecord> inputs;
   std::optional<Certificate> certificate;  ///< as recorded, not as measured
@@ -31,16 +32,21 @@ struct GridFile {
   std::optional<Mesh> mesh;
   /// The spacing that was asked for at the mesh's sides; null where the file does not say.
   SideSpacing spacing;
-  /// The C-grid as the file has it (MPAS); none for UGRID, which holds no C-grid tables.
+  /// The C-grid as the file has it (MPAS); none for the others, which hold no C-grid tables.
   std::optional<Grid> grid;
+  /// Triangles with a border, as VTU, Gmsh, JIGSAW and FESOM2 files may have; then there is neither
+  /// of the others.
+  std::optional<TriangleSet> triangles;
+  std::vector<double> depth_m, level_m;  ///< at the mesh's vertices; FESOM2 only, else empty
 };
 
-/// The grid files (MPAS and UGRID) of a folder in alphabetical order, or the path itself.
-/// Error(input) when there is none.
+/// The grid files of a folder (netCDF of a kind that can be read, *.vtu, *.msh, *nod2d.out) in
+/// alphabetical order, or the path itself. Error(input) when there is none.
 std::vector<std::string> grid_files(const std::string& path);
 
-/// Reads an MPAS file, or UGRID triangles or Voronoi cells. Error(input) with the reason when the
-/// file is neither or its tables name what is not there.
+/// Reads a grid file of any kind (see FileOrigin::format), by its content. Polygons must be Voronoi
+/// cells with their centres, or triangles. Error(input) with the reason when the file is none or its
+/// tables name what is not there.
 GridFile read_grid_file(Context& context, const std::string& path);
 
 /// Closes triangles over points into a mesh: finds the neighbours. Error(input), naming the edge,

@@ -10,9 +10,15 @@
 #include "dual/build.hpp"
 #include "geometry/conformal.hpp"
 #include "io/atomic_file.hpp"
+#include "io/esmf_mesh.hpp"
+#include "io/fesom.hpp"
+#include "io/gmsh.hpp"
+#include "io/jigsaw.hpp"
 #include "io/mpas.hpp"
 #include "io/provenance.hpp"
+#include "io/scrip.hpp"
 #include "io/ugrid.hpp"
+#include "io/vtu.hpp"
 #include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/require.hpp"
 #include "lifecycle/version.hpp"
@@ -40,19 +46,6 @@ FileExtreme file_extreme(const Extreme& extreme) {
   return out;
 }
 
-FileCertificate file_certificate(const Certificate& certificate) {
-  FileCertificate out;
-  out.well_centred = certificate.well_centred;
-  out.n_obtuse = static_cast<std::int32_t>(certificate.n_obtuse);
-  out.angle_max_deg = file_extreme(certificate.angle_max_deg);
-  out.dual_ratio_min = file_extreme(certificate.dual_ratio_min);
-  out.stagger_max = file_extreme(certificate.stagger_max);
-  if (certificate.relative_edge_min) {
-    out.relative_edge_min = file_extreme(*certificate.relative_edge_min);
-  }
-  return out;
-}
-
 Provenance provenance_of(const OutputContent& content) {
   const FileNotes& notes = content.notes;
   Provenance out;
@@ -60,7 +53,7 @@ Provenance provenance_of(const OutputContent& content) {
   out.config = content.settings.text;
   out.digest = notes.digest;
   for (const InputRecord& file : notes.inputs) out.inputs.push_back({file.path, file.sha256});
-  out.history = history_line(history_time(now_s()), notes.command);
+  out.history = history_now(notes.command);
   out.certificate = file_certificate(notes.certificate);
   return out;
 }
@@ -124,11 +117,14 @@ void write_mpas_file(Context& context, const OutputContent& content, const std::
   }
 }
 
+netcdf::Format format_of(const OutputContent& content) {
+  return content.settings.output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5;
+}
+
 UgridOptions ugrid_options(Context& context, const OutputContent& content) {
   // CDO's bounds double the file, and no such tool opens grids of this size.
   constexpr Index kMaxVerticesWithBounds = 50'000'000;
-  return {content.settings.output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
-          content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
+  return {format_of(content), content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
 }
 
 /// Folders made on the way to `directory`, removed again unless kept.
@@ -172,6 +168,13 @@ class OutputWriter {
       write_grid(FileKind::ugrid_triangles, "ugrid_triangles.nc", ugrid_bytes);
     }
     if (output.ugrid_cells) write_grid(FileKind::ugrid_cells, "ugrid_cells.nc", ugrid_bytes);
+    for (const FileKind kind : output.more) {
+      if (kind == FileKind::fesom) {
+        write_fesom_folder();
+      } else {
+        write_grid(kind, file_ending(kind), ugrid_bytes);
+      }
+    }
     if (output.graph) {
       add("graph.info", [&](const std::string& path) { write_graph_info(path, *content_.grid); });
     }
@@ -197,6 +200,7 @@ class OutputWriter {
   std::vector<std::string> commit() {
     context_.monitor.check_cancelled();
     files_.commit();
+    if (fesom_folder_) fesom_folder_->keep();
     // What was said about an earlier grid of this name would be taken for this one.
     std::error_code ignored;
     for (const char* const kind : {kRejectedJson, kRejectedText}) {
@@ -208,14 +212,26 @@ class OutputWriter {
  private:
   void add(const std::string& kind, const std::function<void(const std::string&)>& write,
            std::uint64_t bytes = 0) {
+    add_path(directory_ / text(content_.settings.output.name, ".", kind), write, bytes);
+  }
+  void add_path(const fs::path& path, const std::function<void(const std::string&)>& write,
+                std::uint64_t bytes) {
     context_.monitor.check_cancelled();
-    const fs::path path = directory_ / text(content_.settings.output.name, ".", kind);
     files_.add(path, bytes, write);
     paths_.push_back(path.string());
     context_.monitor.advance(1);
   }
   void add_text(const std::string& kind, const std::string& value) {
     add(kind, [&](const std::string& path) { write_text_atomically(path, value); });
+  }
+  void write_fesom_folder() {
+    const TriangleSet set =
+        triangle_set(content_.settings.surface, content_.settings.latitude, content_.mesh);
+    const std::string folder = text(content_.settings.output.name, ".fesom");
+    fesom_folder_.emplace(directory_ / folder);
+    for (const FesomFile& file : fesom_files(set)) {
+      add_path(directory_ / folder / file.name, file.write, 0);
+    }
   }
   void write_grid(FileKind kind, const std::string& name, std::uint64_t bytes) {
     add(
@@ -226,17 +242,36 @@ class OutputWriter {
   Context& context_;
   const OutputContent& content_;
   fs::path directory_;
+  std::optional<NewFolders> fesom_folder_;  // outlives its files
   OutputSet files_;
   std::vector<std::string> paths_;
 };
 
 }  // namespace
 
+FileCertificate file_certificate(const Certificate& certificate) {
+  FileCertificate out;
+  out.well_centred = certificate.well_centred;
+  out.n_obtuse = static_cast<std::int32_t>(certificate.n_obtuse);
+  out.angle_max_deg = file_extreme(certificate.angle_max_deg);
+  out.dual_ratio_min = file_extreme(certificate.dual_ratio_min);
+  out.stagger_max = file_extreme(certificate.stagger_max);
+  if (certificate.relative_edge_min) {
+    out.relative_edge_min = file_extreme(*certificate.relative_edge_min);
+  }
+  return out;
+}
+
+std::string history_now(const std::string& command) {
+  return history_line(history_time(now_s()), command);
+}
+
 std::vector<std::string> write_outputs(Context& context, const OutputContent& content,
                                        const std::string& directory) {
   const OutputSettings& output = content.settings.output;
   const std::int64_t n_files = output.mpas + output.ugrid_triangles + output.ugrid_cells +
                                output.graph + output.spacing + 2 * output.report +
+                               static_cast<std::int64_t>(output.more.size()) +
                                static_cast<std::int64_t>(output.pictures.size());
   const Phase phase(context.monitor, "write", n_files);
   NewFolders folders(directory);
@@ -251,6 +286,10 @@ std::vector<std::string> write_outputs(Context& context, const OutputContent& co
 void write_grid_file(Context& context, const OutputContent& content, FileKind kind,
                      const std::string& path) {
   const Settings& settings = content.settings;
+  const netcdf::Format format = format_of(content);
+  const auto triangles = [&] {
+    return triangle_set(settings.surface, settings.latitude, content.mesh);
+  };
   switch (kind) {
     case FileKind::mpas:
       write_mpas_file(context, content, path);
@@ -265,6 +304,18 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
       write_ugrid_cells(path, *content.grid, provenance_of(content),
                         ugrid_options(context, content));
       return;
+    case FileKind::scrip:
+      return write_scrip(path, *content.grid, provenance_of(content), {format, &context.exec});
+    case FileKind::esmf:
+      return write_esmf_mesh(path, *content.grid, provenance_of(content), {format, &context.exec});
+    case FileKind::vtu:
+      return write_vtu_cells(path, *content.grid);
+    case FileKind::gmsh:
+      return write_gmsh(path, triangles());
+    case FileKind::jigsaw:
+      return write_jigsaw(path, triangles());
+    case FileKind::fesom:
+      return write_fesom(path, triangles());
   }
 }
 

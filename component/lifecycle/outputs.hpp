@@ -7,6 +7,8 @@
 
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
+#include "io/provenance.hpp"
+#include "lifecycle/file_kind.hpp"
 #include "lifecycle/inputs.hpp"
 #include "lifecycle/settings.hpp"
 #include "metrics/certificate.hpp"
@@ -42,13 +44,17 @@ struct OutputContent {
 std::vector<std::string> write_outputs(Context& context, const OutputContent& content,
                                        const std::string& directory);
 
-enum class FileKind { mpas, ugrid_triangles, ugrid_cells };
-
 /// One file. MPAS knows spheres only: a grid of an ellipsoid is carried to the sphere of equal area
 /// (geometry/conformal) first, and the file says so. What is carried gets a certificate of its own;
 /// Error(quality) when it misses what the settings require, unless `require.keep` is on.
 void write_grid_file(Context& context, const OutputContent& content, FileKind kind,
                      const std::string& path);
+
+/// A certificate as files hold it.
+FileCertificate file_certificate(const Certificate& certificate);
+
+/// A line of `history` with the time of now, see history_time().
+std::string history_now(const std::string& command);
 
 /// The report alone, of a grid that is not written because it misses a requirement, as
 /// <name>.rejected.report.json and .txt. Path of the latter.

@@ -137,7 +137,9 @@ OutputSettings read_output(MapReader keys) {
   if (out.name.empty() || out.name.find('/') != std::string::npos) {
     keys.fail("name", "'", out.name, "' is no file name; the folder goes to `directory`.");
   }
-  const auto formats = keys.strings("formats", {"mpas", "ugrid_triangles", "ugrid_cells"},
+  const auto formats = keys.strings("formats",
+      {"mpas", "ugrid_triangles", "ugrid_cells", "scrip", "esmf", "vtu", "gmsh", "jigsaw",
+       "fesom"},
                                     {"mpas", "ugrid_triangles", "ugrid_cells"});
   const auto wanted = [&](const char* format) {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
@@ -145,6 +147,12 @@ OutputSettings read_output(MapReader keys) {
   out.mpas = wanted("mpas");
   out.ugrid_triangles = wanted("ugrid_triangles");
   out.ugrid_cells = wanted("ugrid_cells");
+  for (const std::string& format : formats) {
+    const auto names = file_kind_names();
+    const auto kind =
+        static_cast<FileKind>(std::find(names.begin(), names.end(), format) - names.begin());
+    if (kind > FileKind::ugrid_cells) out.more.push_back(kind);
+  }
   out.graph = keys.boolean("graph", true);
   out.report = keys.boolean("report", true);
   out.spacing = keys.boolean("spacing", false);

@@ -2,6 +2,7 @@
 #pragma once
 // What a configuration asks for, checked and in SI units. No file is opened here: fields that
 // files hold are named as requests, which inputs.hpp answers.
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -9,6 +10,7 @@
 #include "geometry/ellipsoid.hpp"
 #include "io/rasters.hpp"
 #include "lifecycle/settings_remesh.hpp"
+#include "lifecycle/file_kind.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
 #include "refine/refine.hpp"
@@ -53,6 +55,7 @@ struct OutputSettings {
   std::string directory;
   std::string name;  ///< files are called <name>.<kind>.nc
   bool mpas = false, ugrid_triangles = false, ugrid_cells = false;
+  std::vector<FileKind> more;  ///< other kinds of grid files
   bool graph = false, report = false, spacing = false;
   std::vector<std::string> pictures;  ///< of globe, map, histograms
   LonLat view{0.0, 0.0};              ///< centre of the globe picture
@@ -60,7 +63,10 @@ struct OutputSettings {
   bool compress = false;              ///< netCDF-4 with deflate where a reader may meet it
 
   /// Whether any output needs the dual.
-  bool needs_dual() const { return mpas || ugrid_cells || graph || !pictures.empty(); }
+  bool needs_dual() const {
+    return mpas || ugrid_cells || graph || !pictures.empty() ||
+           std::any_of(more.begin(), more.end(), holds_cells);
+  }
 };
 
 /// What the finished grid must meet. Nothing is required by default.

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/convert.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "core/error.hpp"
+#include "dual/build.hpp"
+#include "io/esmf_mesh.hpp"
+#include "io/fesom.hpp"
+#include "io/gmsh.hpp"
+#include "io/jigsaw.hpp"
+#include "io/mpas.hpp"
+#include "io/names.hpp"
+#include "io/scrip.hpp"
+#include "io/ugrid.hpp"
+#include "io/vtu.hpp"
+#include "lifecycle/grid_file.hpp"
+#include "lifecycle/outputs.hpp"
+#include "lifecycle/version.hpp"
+
+namespace delos {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool ends_with(const std::string& word, const std::string& ending) {
+  return word.size() >= ending.size() &&
+         word.compare(word.size() - ending.size(), std::string::npos, ending) == 0;
+}
+
+FileKind kind_named(const std::string& to) {
+  const std::vector<std::string> names = file_kind_names();
+  const auto found = std::find(names.begin(), names.end(), to);
+  DELOS_CHECK(found != names.end(), ErrorKind::config, "--to ", to, ": is none of ",
+              join_names(names), ".");
+  return static_cast<FileKind>(found - names.begin());
+}
+
+Provenance provenance_of(const Conversion& conversion, const GridFile& file) {
+  Provenance out;
+  out.version = library_version();
+  out.config = file.origin.config;
+  for (const InputRecord& input : file.origin.inputs) {
+    out.inputs.push_back({input.path, input.sha256});
+  }
+  out.history = history_now(conversion.command);
+  if (!file.origin.history.empty()) out.history += "\n" + file.origin.history;
+  if (file.mesh) out.digest = digest(*file.mesh);
+  if (file.origin.format == "MPAS") out.parent_id = mpas_parent_id(conversion.from);
+  return out;
+}
+
+/// What was measured, where the file to be written holds all that it is about.
+void certify(Context& context, const GridFile& file, FileKind kind, Provenance& provenance) {
+  SideSpacing spacing = file.spacing;
+  if (kind == FileKind::ugrid_triangles) spacing = nullptr;  // which needs the field for its edges
+  const Quality quality =
+      measure_quality(context, file.surface, spacing, *file.mesh, file.latitude);
+  provenance.certificate = file_certificate(certificate(quality));
+}
+
+/// The C-grid, with the spacing at the edges where the file knows it.
+Grid grid_of(Context& context, const GridFile& file) {
+  if (file.grid) return *file.grid;
+  Grid grid = build_grid(context, file.surface, file.latitude, *file.mesh);
+  const bool has_spacing =
+      std::all_of(file.mesh->vertices.begin(), file.mesh->vertices.end(),
+                  [](const Vertex& vertex) { return vertex.spacing > 0.0; });
+  if (!has_spacing) grid.cell_spacing_m.clear();
+  return grid;
+}
+
+/// The folder of the three files of FESOM2, removed again when they do not come to be.
+void write_into_folder(const std::string& folder, const TriangleSet& set) {
+  std::error_code failed;
+  const bool is_new = fs::create_directory(folder, failed);
+  DELOS_CHECK(!failed, ErrorKind::output, "can't make the folder ", folder, ": ", failed.message(),
+              ". Choose another one.");
+  try {
+    write_fesom(folder, set);
+  } catch (...) {
+    if (is_new) fs::remove(folder, failed);
+    throw;
+  }
+}
+
+void write_triangles(const std::string& path, FileKind kind, const TriangleSet& set) {
+  switch (kind) {
+    case FileKind::vtu:
+      return write_vtu_triangles(path, set);
+    case FileKind::gmsh:
+      return write_gmsh(path, set);
+    case FileKind::jigsaw:
+      return write_jigsaw(path, set);
+    case FileKind::fesom:
+      return write_into_folder(path, set);
+    default:
+      throw Error(ErrorKind::input,
+                  text("triangles with a border can't be made into ",
+                       file_kind_names()[static_cast<std::size_t>(kind)],
+                       ", only into vtu, gmsh, jigsaw or fesom."));
+  }
+}
+
+void write_closed(Context& context, const GridFile& file, const Conversion& conversion) {
+  const std::string& path = conversion.to;
+  Provenance provenance = provenance_of(conversion, file);
+  if (!holds_cells(conversion.kind) && conversion.kind != FileKind::ugrid_triangles) {
+    TriangleSet set = triangle_set(file.surface, file.latitude, *file.mesh);
+    set.depth_m = file.depth_m;
+    set.level_m = file.level_m;
+    return write_triangles(path, conversion.kind, set);
+  }
+  certify(context, file, conversion.kind, provenance);
+  if (conversion.kind == FileKind::ugrid_triangles) {
+    return write_ugrid_triangles(path, *file.mesh, {file.surface, file.latitude}, provenance,
+                                 {netcdf::Format::cdf5, true, &context.exec});
+  }
+  const Grid grid = grid_of(context, file);
+  switch (conversion.kind) {
+    case FileKind::mpas:
+      return write_mpas(path, grid, provenance, {netcdf::Format::cdf5, false, &context.exec});
+    case FileKind::ugrid_cells:
+      return write_ugrid_cells(path, grid, provenance,
+                               {netcdf::Format::cdf5, true, &context.exec});
+    case FileKind::scrip:
+      return write_scrip(path, grid, provenance, {netcdf::Format::cdf5, &context.exec});
+    case FileKind::esmf:
+      return write_esmf_mesh(path, grid, provenance, {netcdf::Format::cdf5, &context.exec});
+    default:
+      return write_vtu_cells(path, grid);
+  }
+}
+
+}  // namespace
+
+FileKind file_kind_of(const std::string& path, const std::string& to) {
+  if (!to.empty()) return kind_named(to);
+  std::error_code ignored;
+  if (fs::is_directory(path, ignored) || ends_with(path, ".fesom")) return FileKind::fesom;
+  for (std::size_t i = 0; i < file_kind_names().size(); ++i) {
+    const auto kind = static_cast<FileKind>(i);
+    if (ends_with(path, "." + file_ending(kind))) return kind;
+  }
+  if (ends_with(path, ".msh")) return FileKind::gmsh;
+  throw Error(ErrorKind::config,
+              text(path, ": the ending does not say what kind of file this is to be. Give --to ",
+                   join_names(file_kind_names()), "."));
+}
+
+void convert_grid_file(Context& context, const Conversion& conversion) {
+  const GridFile file = read_grid_file(context, conversion.from);
+  const Phase phase(context.monitor, "write", 1);
+  if (file.triangles) {
+    write_triangles(conversion.to, conversion.kind, *file.triangles);
+    return;
+  }
+  DELOS_CHECK(file.mesh, ErrorKind::input, conversion.from,
+              ": cells with a border can't be converted.");
+  write_closed(context, file, conversion);
+}
+
+}  // namespace delos

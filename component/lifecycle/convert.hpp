@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// A grid file of one kind made into another.
+#include <string>
+
+#include "core/progress.hpp"
+#include "lifecycle/file_kind.hpp"
+
+namespace delos {
+
+/// The kind that `to` names or, when it is empty, that the ending of the path stands for: .vtu,
+/// .gmsh.msh or .msh, .jigsaw.msh, .scrip.nc, .esmf.nc, .mpas.nc, .ugrid_cells.nc,
+/// .ugrid_triangles.nc, a folder or a name with .fesom. Error(config) for other words and endings.
+FileKind file_kind_of(const std::string& path, const std::string& to);
+
+struct Conversion {
+  std::string from, to;
+  FileKind kind = FileKind::mpas;
+  std::string command;  ///< for the history
+};
+
+/// Reads a grid file of any kind and writes another. What the first says about its origin goes
+/// along; digest and certificate are those of the grid as it was read. Triangles with a border
+/// become VTU, Gmsh, JIGSAW or FESOM2 only. Error(input) for what can't be read or has a border,
+/// Error(output) for what the kind does not hold (an ellipsoid as MPAS).
+void convert_grid_file(Context& context, const Conversion& conversion);
+
+}  // namespace delos
