@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// A model of shallow water that makes its grid with delos when it starts.
+#include <tbb/global_control.h>
+
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "cases.hpp"
+#include "model.hpp"
+#include "norms.hpp"
+
+namespace {
+
+using shallow_water::Case;
+using shallow_water::Model;
+
+constexpr double kHour_s = 3600.0;
+
+constexpr char kUsage[] =
+    "usage: shallow_water CASE CONFIG [option value]...\n"
+    "  CASE            tc2, tc5 or galewsky\n"
+    "  CONFIG          a configuration of delos: the grid\n"
+    "  --days D        the case's own when left out: 5, 15, 6\n"
+    "  --every H       hours from one line to the next, 24\n"
+    "  --threads N     2; the results do not depend on it\n"
+    "  --courant C     0.7\n"
+    "  --anticipation  of potential vorticity in steps: 0 keeps it, 0.5 smoothes it\n"
+    "  --set KEY=VALUE of the configuration, as often as wanted\n";
+
+struct Arguments {
+  std::string case_name, config;
+  double days = 0.0;
+  double every_h = 24.0;
+  double courant = 0.7;
+  double anticipation = 0.0;
+  int threads = 2;
+  std::vector<std::string> settings;
+};
+
+double number(const std::string& option, const std::string& text, double least) {
+  std::size_t used = 0;
+  double value = 0.0;
+  try {
+    value = std::stod(text, &used);
+  } catch (const std::logic_error&) {
+    used = 0;
+  }
+  if (used == 0 || used != text.size() || !(value >= least) || !std::isfinite(value)) {
+    throw std::invalid_argument(option + " " + text + ": must be a number from " +
+                                std::to_string(least) + " on.");
+  }
+  return value;
+}
+
+Arguments parse(const std::vector<std::string>& words) {
+  if (words.size() < 2 || words.size() % 2 != 0) throw std::invalid_argument(kUsage);
+  Arguments arguments;
+  arguments.case_name = words[0];
+  arguments.config = words[1];
+  for (std::size_t i = 2; i < words.size(); i += 2) {
+    const std::string &option = words[i], &value = words[i + 1];
+    if (option == "--days") {
+      arguments.days = number(option, value, 0.0);
+    } else if (option == "--every") {
+      arguments.every_h = number(option, value, 0.01);
+    } else if (option == "--courant") {
+      arguments.courant = number(option, value, 0.01);
+    } else if (option == "--anticipation") {
+      arguments.anticipation = number(option, value, 0.0);
+    } else if (option == "--threads") {
+      arguments.threads = static_cast<int>(number(option, value, 1.0));
+    } else if (option == "--set") {
+      arguments.settings.push_back(value);
+    } else {
+      throw std::invalid_argument(option + " is no option.\n" + kUsage);
+    }
+  }
+  return arguments;
+}
+
+delos::Grid make_grid(const Arguments& arguments) {
+  auto config = delos::Config::from_file(arguments.config);
+  for (const std::string& setting : arguments.settings) {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos) throw std::invalid_argument("--set takes KEY=VALUE.");
+    config.set(setting.substr(0, equals), setting.substr(equals + 1));
+  }
+  return delos::generate(config, {.threads = arguments.threads});
+}
+
+/// A line for every interval: what is kept, and where the solution is known, what is wrong.
+class Table {
+ public:
+  Table(const Model& model, bool with_errors)
+      : start_(model.totals()), depth_m_(model.flow().depth_m), with_errors_(with_errors) {
+    std::printf("%8s %10s %10s %10s%s\n", "day", "mass", "energy", "enstrophy",
+                with_errors ? "      L2(h)    Linf(h)" : "");
+  }
+  void line(const Model& model, double day) const {
+    const shallow_water::Totals now = model.totals();
+    std::printf("%8.3f %10.2e %10.2e %10.2e", day, now.mass / start_.mass - 1.0,
+                now.energy / start_.energy - 1.0,
+                now.potential_enstrophy / start_.potential_enstrophy - 1.0);
+    if (with_errors_) {
+      const auto norms = shallow_water::error_norms(model.grid(), model.flow().depth_m, depth_m_);
+      std::printf(" %10.3e %10.3e", norms.l2, norms.largest);
+    }
+    std::printf("\n");
+    std::fflush(stdout);
+  }
+
+ private:
+  shallow_water::Totals start_;
+  std::vector<double> depth_m_;
+  bool with_errors_;
+};
+
+void simulate(const Arguments& arguments) {
+  const Case flow = Case::named(arguments.case_name);
+  const shallow_water::Physics physics{.anticipation = arguments.anticipation};
+  const delos::Grid grid = make_grid(arguments);
+  shallow_water::Start start = flow.start(grid, physics);
+  Model model(physics);
+  model.start(grid, std::move(start.ground_m), std::move(start.flow));
+
+  const double days = arguments.days > 0.0 ? arguments.days : flow.days();
+  const double interval_s = arguments.every_h * kHour_s;
+  const auto n_intervals = static_cast<int>(std::lround(days * 24.0 / arguments.every_h));
+  std::printf("%s on %lld cells, steps of %.0f s\n", arguments.case_name.c_str(),
+              static_cast<long long>(grid.n_cells()), model.step_s(arguments.courant));
+  const Table table(model, flow.is_steady());
+  double n_steps = 0.0, busy_s = 0.0;
+  for (int interval = 1; interval <= n_intervals; ++interval) {
+    const double n = std::ceil(interval_s / model.step_s(arguments.courant));
+    const auto from = std::chrono::steady_clock::now();
+    for (double step = 0.0; step < n; ++step) model.advance(interval_s / n);
+    busy_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+    n_steps += n;
+    table.line(model, interval * arguments.every_h / 24.0);
+  }
+  std::printf("%.0f steps, %.3g cell-steps/s\n", n_steps,
+              n_steps * static_cast<double>(grid.n_cells()) / busy_s);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    const Arguments arguments = parse({argv + 1, argv + argc});
+    const tbb::global_control threads(tbb::global_control::max_allowed_parallelism,
+                                      static_cast<std::size_t>(arguments.threads));
+    simulate(arguments);
+  } catch (const delos::Error& error) {
+    std::fprintf(stderr, "%s error: %s\n", delos::to_string(error.kind()), error.what());
+    return delos::esmf_code(error.kind());
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "%s\n", error.what());
+    return 2;
+  }
+  return 0;
+}
