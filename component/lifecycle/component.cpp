@@ -303,6 +303,8 @@ void Component::take(RemeshOutcome outcome, const Time& now) {
     put_in_place(std::move(outcome.product), last_generation_ + 1);
     remesh_->solution = std::move(*outcome.solution);
     note_remesh(now, remesh_->policy);
+    // Only a grid that could not follow has to wait.
+    remesh_->policy.is_armed = outcome.has_followed;
   }
   const bool has_failed = !outcome.failure.empty();
   const double decided = has_failed ? -1.0 : outcome.decision.remesh ? 1.0 : 0.0;

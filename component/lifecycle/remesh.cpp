@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "lifecycle/remesh.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <exception>
 #include <utility>
@@ -16,8 +17,9 @@ namespace {
 
 /// What the budget promises of the finished grid.
 constexpr double kBudgetTolerance = 0.01;
-/// Tries to keep it: each leaves at most about half of the error.
-constexpr int kBudgetRounds = 4;
+/// Tries to keep it, and the least share of a change that the grid is taken to answer with.
+constexpr int kBudgetRounds = 6;
+constexpr double kLeastSlope = 0.3;
 
 /// The recipe of now, and its spacing.
 struct Wanted {
@@ -49,13 +51,12 @@ Wanted wanted_now(Context& context, const Product& old, const Solution& solution
   return out;
 }
 
-void look(Context& context, const Product& old, const Wanted& wanted, PolicyInput& input) {
-  const RemeshSettings& settings = settings_of(old);
-  const Grid& grid = *old.grid;
-  input.mismatch = mismatch(
-      context.exec, grid, wanted_at_cells(context.exec, grid, wanted.sized.field),
-      settings.policy.tau, in_fixed_regions(context.exec, settings.fixed, grid.cell_lon_lat));
-  input.expected_cells = wanted.n_expected;
+Mismatch mismatch_of(Context& context, const Product& product, const SpacingField& wanted) {
+  const RemeshSettings& settings = settings_of(product);
+  const Grid& grid = *product.grid;
+  return mismatch(context.exec, grid, wanted_at_cells(context.exec, grid, wanted),
+                  settings.policy.tau,
+                  in_fixed_regions(context.exec, settings.fixed, grid.cell_lon_lat));
 }
 
 /// The statistics on the new grid.
@@ -88,6 +89,7 @@ std::shared_ptr<const Product> rebuilt(Context& context, const Product& old, Wan
   GenerateScope scope;
   scope.old = &from;
   std::shared_ptr<const Product> best;
+  double slope = 1.0, last_asked = 0.0, last_n = 0.0;
   for (int round = 0; round < kBudgetRounds; ++round) {
     auto product = std::make_shared<const Product>(
         generate(context, old.settings, wanted.inputs, wanted.sized, scope));
@@ -95,8 +97,15 @@ std::shared_ptr<const Product> rebuilt(Context& context, const Product& old, Wan
     if (!best || off_budget(*product) < off_budget(*best)) best = std::move(product);
     if (off_budget(*best) <= kBudgetTolerance) return best;
     SpacingRecipe& recipe = wanted.inputs.recipe;
-    const double ratio = static_cast<double>(budget_of(old.settings)) / n;
-    recipe.cells = static_cast<std::int64_t>(std::round(static_cast<double>(recipe.cells) * ratio));
+    const auto asked = static_cast<double>(recipe.cells);
+    // Cells got for a cell asked: by the last two tries, at first 1; bounded where these are noise.
+    if (round > 0 && asked != last_asked) {
+      slope = std::clamp((n - last_n) / (asked - last_asked), kLeastSlope, 1.0);
+    }
+    last_asked = asked;
+    last_n = n;
+    const double missing = static_cast<double>(budget_of(old.settings)) - n;
+    recipe.cells = static_cast<std::int64_t>(std::round(asked + missing / slope));
     wanted.sized = size(context, old.settings, recipe);
   }
   context.monitor.log(
@@ -115,13 +124,17 @@ RemeshOutcome try_remesh(Context& context, const Product& old, const Time& now, 
     std::optional<Wanted> wanted;
     if (input.has_statistics) {
       wanted = wanted_now(context, old, remesh.solution);
-      look(context, old, *wanted, input);
+      input.mismatch = mismatch_of(context, old, wanted->sized.field);
+      input.expected_cells = wanted->n_expected;
     }
     out.decision = decide(settings_of(old).policy, input, remesh.policy);
     context.monitor.log(LogLevel::info, out.decision.text);
     if (!out.decision.remesh) return out;
     std::shared_ptr<const Product> product = rebuilt(context, old, std::move(*wanted));
     out.solution = moved(context, remesh.solution, old, *product);
+    const PolicyOptions& policy = settings_of(old).policy;
+    out.has_followed = mismatch_of(context, *product, product->spacing).total() <=
+                       policy.threshold * (1.0 - policy.hysteresis);
     out.product = std::move(product);
   } catch (const std::exception& error) {
     out.failure = text("the remesh at ", iso_text(now), " failed, the grid stays: ", error.what());

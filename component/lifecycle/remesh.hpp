@@ -28,6 +28,7 @@ struct RemeshOutcome {
   Decision decision;
   std::shared_ptr<const Product> product;  ///< the new one, or none: the old one stays
   std::optional<Solution> solution;        ///< on the new one's grid
+  bool has_followed = false;               ///< the new grid is what was wanted, by the hysteresis
   std::string failure;                     ///< why a remesh that was wanted did not come about
 };
 
