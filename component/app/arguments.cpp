@@ -51,9 +51,10 @@ void add_convert(CLI::App& app, Arguments& out) {
   CLI::App* const convert = app.add_subcommand("convert", "make a grid file of another kind");
   convert->add_option("IN", out.file, "a grid file of any kind")->required();
   convert->add_option("OUT", out.directory, "the new file; a folder for FESOM2")->required();
-  convert->add_option("--to", out.to,
-                      "mpas, ugrid_triangles, ugrid_cells, scrip, esmf, vtu, gmsh, jigsaw or fesom; "
-                      "else by the ending, e.g. .scrip.nc");
+  convert->add_option(
+      "--to", out.to,
+      "mpas, ugrid_triangles, ugrid_cells, scrip, esmf, vtu, gmsh, jigsaw or fesom; "
+      "else by the ending, e.g. .scrip.nc");
   convert->add_option("--threads", out.threads, "threads")->check(CLI::Range(0, 4096));
   convert->callback([&out] { out.command = Command::convert; });
 }

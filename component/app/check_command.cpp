@@ -7,6 +7,7 @@
 #include "app/loaded_grid.hpp"
 #include "dual/validate.hpp"
 #include "lifecycle/require.hpp"
+#include "metrics/open_mesh.hpp"
 #include "triangulation/validate.hpp"
 
 namespace delos::app {
@@ -19,6 +20,11 @@ constexpr double kOwnTolerance = 1e-9;  // where the edges are not known
 constexpr double kForeignTolerance = 1e-6;
 constexpr std::size_t kMaxDefects = 20;
 
+/// The other kinds have no place for what a certificate is about.
+bool certifies(const FileOrigin& origin) {
+  return origin.format == "MPAS" || origin.format == "UGRID";
+}
+
 /// What the file says about itself against what its arrays say.
 void add_certificate_defects(Context& context, const LoadedGrid& loaded,
                              std::vector<std::string>& out) {
@@ -30,7 +36,7 @@ void add_certificate_defects(Context& context, const LoadedGrid& loaded,
          certificate_defects(context, subject, loaded.report.quality, *file.origin.certificate)) {
       out.push_back(std::move(defect));
     }
-  } else if (!file.origin.digest.empty()) {
+  } else if (!file.origin.digest.empty() && certifies(file.origin)) {
     out.emplace_back("the file has a digest by delos, but no certificate.");
   }
 }
@@ -41,7 +47,8 @@ Requirements requirements_of(const Arguments& arguments, const FileOrigin& origi
   ConfigNode root;
   root.kind = ConfigNode::Kind::map;
   try {
-    if (!origin.config.empty()) root = parse_config(origin.config, "attribute delos_config");
+    if (!origin.config.empty() && certifies(origin))
+      root = parse_config(origin.config, "attribute delos_config");
     static_cast<void>(read_require(root));
   } catch (const Error& error) {
     defects.push_back(text("what was required can't be read: ", error.what()));
@@ -92,13 +99,35 @@ const char* certificate_note(const GridFile& file, bool is_sound) {
 
 }  // namespace
 
+namespace {
+
+/// Triangles with a border: no C-grid, so numbers and what no mesh may have.
+int check_triangles(const GridFile& file) {
+  const TriangleSet& set = *file.triangles;
+  const OpenMeshReport report = measure_open_mesh(file.surface, set.position, set.corners);
+  std::printf("%s", report_text(report).c_str());
+  for (const std::string& defect : report.defects) std::printf("defect: %s\n", defect.c_str());
+  std::printf("%s: %s (%s, %lld triangles with a border%s)\n\n", file.path.c_str(),
+              verdict(report.defects.size(), 0).c_str(), file.origin.format.c_str(),
+              static_cast<long long>(report.n_triangles),
+              file.n_turned == 0 ? "" : ", clockwise in the file");
+  return report.defects.empty() ? kSuccess : kDefects;
+}
+
+}  // namespace
+
 int run_check(const Arguments& arguments, const std::atomic<bool>& cancel) {
   parallel::Executor exec(arguments.threads);
   Monitor monitor({}, {}, &cancel);
   Context context{exec, monitor};
   int status = kSuccess;
   for (const std::string& path : grid_files(arguments.file)) {
-    LoadedGrid loaded = load_grid(context, path);
+    GridFile file = read_grid_file(context, path);
+    if (file.triangles) {
+      if (check_triangles(file) != kSuccess) status = kDefects;
+      continue;
+    }
+    LoadedGrid loaded = load_grid(context, std::move(file));
     std::vector<std::string> defects = defects_of(context, loaded);
     const Requirements required = requirements_of(arguments, loaded.file.origin, defects);
     std::vector<std::string>& missed = loaded.report.missed;

@@ -12,8 +12,7 @@ int run_convert(const Arguments& arguments, const std::atomic<bool>& cancel) {
   parallel::Executor exec(arguments.threads);
   Monitor monitor({}, {}, &cancel);
   Context context{exec, monitor};
-  convert_grid_file(context,
-                    {arguments.file, arguments.directory, kind, arguments.command_line});
+  convert_grid_file(context, {arguments.file, arguments.directory, kind, arguments.command_line});
   std::printf("wrote %s\n", arguments.directory.c_str());
   return kSuccess;
 }

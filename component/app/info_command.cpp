@@ -17,6 +17,10 @@ std::string counts(const GridFile& file) {
     return text(file.grid->n_cells(), " cells, ", file.grid->n_edges(), " edges, ",
                 file.grid->n_vertices(), " vertices");
   }
+  if (file.triangles) {
+    return text(file.triangles->position.size(), " points, ", file.triangles->corners.size(),
+                " triangles with a border");
+  }
   if (!file.mesh) return "faces that do not close to a surface";
   const auto n_triangles = static_cast<std::int64_t>(file.mesh->triangles.size());
   return text(file.mesh->n_vertices(), " cells, ", n_triangles / 2 * 3, " edges, ", n_triangles,

@@ -9,10 +9,15 @@
 namespace delos::app {
 
 LoadedGrid load_grid(Context& context, const std::string& path) {
-  LoadedGrid out{read_grid_file(context, path), {}, {}};
+  return load_grid(context, read_grid_file(context, path));
+}
+
+LoadedGrid load_grid(Context& context, GridFile grid_file) {
+  LoadedGrid out{std::move(grid_file), {}, {}};
   const GridFile& file = out.file;
+  const std::string& path = file.path;
   DELOS_CHECK(file.mesh || file.grid, ErrorKind::input, path,
-              ": a UGRID file whose faces do not close over the whole surface can't be checked.");
+              ": faces that do not close over the whole surface are no C-grid.");
   out.grid = file.grid ? *file.grid : build_grid(context, file.surface, file.latitude, *file.mesh);
   out.report.title = std::filesystem::path(path).filename().string();
   out.report.version = file.origin.version;

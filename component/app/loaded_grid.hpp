@@ -15,6 +15,8 @@ struct LoadedGrid {
   Report report;  ///< measured anew; quality only where the grid is closed
 };
 
+/// Error(input) for faces with a border, which have no C-grid.
 LoadedGrid load_grid(Context& context, const std::string& path);
+LoadedGrid load_grid(Context& context, GridFile file);
 
 }  // namespace delos::app

@@ -68,16 +68,15 @@ void put(parallel::Executor& exec, netcdf::Writer& file, const Columns& columns,
   put_rows<std::int32_t>(exec, file, {columns.n_connected, n}, [&](std::int64_t cell, Ids out) {
     out[0] = static_cast<std::int32_t>(grid.vertices_on_cell.row(cell).size());
   });
-  put_rows<double>(
-      exec, file, {columns.centres, n, 2},
-      [&](std::int64_t cell, Reals out) { put_place(grid.cell_lon_lat[at(cell)], out); });
+  put_rows<double>(exec, file, {columns.centres, n, 2}, [&](std::int64_t cell, Reals out) {
+    put_place(grid.cell_lon_lat[at(cell)], out);
+  });
   const double whole_m2 = grid.surface.area() * grid.surface.scale_m() * grid.surface.scale_m();
   const double factor = 4.0 * kPi / whole_m2;
   put_rows<double>(exec, file, {columns.area, n}, [&](std::int64_t cell, Reals out) {
     out[0] = factor * grid.cell_area_m2[at(cell)];
   });
-  put_rows<std::int32_t>(exec, file, {columns.mask, n},
-                         [](std::int64_t, Ids out) { out[0] = 1; });
+  put_rows<std::int32_t>(exec, file, {columns.mask, n}, [](std::int64_t, Ids out) { out[0] = 1; });
 }
 
 /// A table [rows, 2] of longitude and latitude.
@@ -134,9 +133,9 @@ void write_esmf_mesh(const std::string& path, const Grid& grid, const Provenance
     width = std::max(width, grid.vertices_on_cell.row(cell).size());
   }
   constexpr std::uint64_t kReal = 8, kId = 4;
-  AtomicFile target(
-      path, static_cast<std::uint64_t>(grid.n_cells()) * (3 * kReal + (2 + width) * kId) +
-                static_cast<std::uint64_t>(grid.n_vertices()) * 2 * kReal);
+  AtomicFile target(path,
+                    static_cast<std::uint64_t>(grid.n_cells()) * (3 * kReal + (2 + width) * kId) +
+                        static_cast<std::uint64_t>(grid.n_vertices()) * 2 * kReal);
   parallel::Executor alone(1);
   target.fill([&](const std::string& temporary) {
     netcdf::Writer file(temporary, options.format);

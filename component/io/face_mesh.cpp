@@ -45,8 +45,7 @@ std::vector<double> read_radians(const netcdf::Reader& file, const std::string& 
 }
 
 std::vector<LonLat> places(const netcdf::Reader& file, const std::string& what,
-                           const std::vector<double>& lon_rad,
-                           const std::vector<double>& lat_rad) {
+                           const std::vector<double>& lon_rad, const std::vector<double>& lat_rad) {
   DELOS_CHECK(lon_rad.size() == lat_rad.size(), ErrorKind::input, file.path(), ": ", what, " have ",
               lon_rad.size(), " and ", lat_rad.size(),
               " values; they must have as many. The file is damaged.");

@@ -12,10 +12,10 @@ namespace delos {
 
 /// Polygons on a surface, as a file has them.
 struct FaceMesh {
-  std::vector<LonLat> node;          ///< radians, lon in (-pi, pi]
-  std::vector<LonLat> face_centre;   ///< the same; empty when the file has none
-  Ragged<Index> nodes_on_face;       ///< from 0, in the order of the file
-  std::vector<double> face_area_m2;  ///< empty when the file has none
+  std::vector<LonLat> node;            ///< radians, lon in (-pi, pi]
+  std::vector<LonLat> face_centre;     ///< the same; empty when the file has none
+  Ragged<Index> nodes_on_face;         ///< from 0, in the order of the file
+  std::vector<double> face_area_m2;    ///< empty when the file has none
   std::optional<Ellipsoid> ellipsoid;  ///< when the file says so
   LatitudeKind latitude = LatitudeKind::geodetic;
 };

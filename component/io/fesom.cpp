@@ -86,8 +86,8 @@ void put_nodes(const std::string& path, const TriangleSet& set) {
     for (std::size_t i = 0; i < set.position.size(); ++i) {
       const LonLat place = set.surface->lon_lat(set.position[i], set.latitude);
       out << static_cast<std::int64_t>(i + 1) << ' ' << place.lon_rad * kDegPerRad << ' '
-          << std::clamp(place.lat_rad * kDegPerRad, -90.0, 90.0) << ' '
-          << std::int32_t{mark[i]} << '\n';
+          << std::clamp(place.lat_rad * kDegPerRad, -90.0, 90.0) << ' ' << std::int32_t{mark[i]}
+          << '\n';
     }
     out.close();
   });
@@ -165,7 +165,6 @@ TriangleSet read_fesom(const std::string& path) {
   const fs::path depths = companion(nodes, "aux3d.out");
   std::error_code ignored;
   if (fs::exists(depths, ignored)) read_depths(depths.string(), out);
-  orient(out);
   return out;
 }
 

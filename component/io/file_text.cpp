@@ -85,8 +85,8 @@ T TextScanner::number(const char* what) {
   if constexpr (std::is_floating_point_v<T>) is_number = is_number && std::isfinite(value);
   if (!is_number) {
     const char* const stop = std::find_if(at_, std::min(end_, at_ + 40), is_blank);
-    fail(what, " is '", std::string_view(at_, static_cast<std::size_t>(stop - at_)),
-         "', no ", std::is_floating_point_v<T> ? "finite number." : "whole number.");
+    fail(what, " is '", std::string_view(at_, static_cast<std::size_t>(stop - at_)), "', no ",
+         std::is_floating_point_v<T> ? "finite number." : "whole number.");
   }
   at_ = next;
   return value;

@@ -87,7 +87,7 @@ class GmshReader {
   std::string path_, bytes_;
   TextScanner file_;
   TriangleSet set_;
-  std::vector<std::int64_t> tags_;  // of the points
+  std::vector<std::int64_t> tags_;                        // of the points
   std::unordered_map<std::int64_t, Index> point_of_tag_;  // empty: tag i + 1 is point i
 };
 
@@ -250,7 +250,6 @@ TriangleSet GmshReader::read() {
   }
   if (set_.corners.empty()) file_.fail("there are no triangles.");
   settle_on_surface(path_, set_);
-  orient(set_);
   return std::move(set_);
 }
 

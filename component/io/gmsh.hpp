@@ -12,9 +12,9 @@ namespace delos {
 /// $Comments "delos_radii_m A B C" and "delos_latitude KIND". Atomic.
 void write_gmsh(const std::string& path, const TriangleSet& set);
 
-/// Triangles of any ASCII file of version 4.1, turned counter-clockwise; points and lines beside
-/// them and sections of other programs are passed over, node tags may have gaps. Without our comments
-/// the surface is the sphere through the points. Error(input) "file:line: ...".
+/// Triangles of any ASCII file of version 4.1, as they stand there; points and lines beside
+/// them and sections of other programs are passed over, node tags may have gaps. Without our
+/// comments the surface is the sphere through the points. Error(input) "file:line: ...".
 TriangleSet read_gmsh(const std::string& path);
 
 }  // namespace delos

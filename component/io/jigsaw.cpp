@@ -92,8 +92,8 @@ void JigsawReader::read_triangles(std::int64_t n) {
 
 void JigsawReader::read_values(const std::string& shape) {
   const std::int64_t n = count(shape);
-  const bool is_spacing = n == static_cast<std::int64_t>(points_.size()) &&
-                          shape.find(";1") == shape.size() - 2;
+  const bool is_spacing =
+      n == static_cast<std::int64_t>(points_.size()) && shape.find(";1") == shape.size() - 2;
   for (std::int64_t i = 0; i < n; ++i) {
     if (is_spacing) {
       set_.spacing_m.push_back(kMetresPerUnit * file_.real("a value"));
@@ -158,7 +158,6 @@ TriangleSet JigsawReader::read() {
   }
   if (set_.corners.empty()) file_.fail("there are no triangles (TRIA3).");
   place_points();
-  orient(set_);
   return std::move(set_);
 }
 
@@ -170,8 +169,8 @@ void write_jigsaw(const std::string& path, const TriangleSet& set) {
   target.fill([&](const std::string& temporary) {
     ByteStream out(temporary);
     const Vec3 radii = set.surface->radii() * set.surface->scale_m() / kMetresPerUnit;
-    out << "# made by delos\nMSHID=3;ELLIPSOID-MESH\nRADII=" << radii.x() << ';' << radii.y()
-        << ';' << radii.z() << "\nNDIMS=2\nPOINT=" << static_cast<std::int64_t>(set.position.size())
+    out << "# made by delos\nMSHID=3;ELLIPSOID-MESH\nRADII=" << radii.x() << ';' << radii.y() << ';'
+        << radii.z() << "\nNDIMS=2\nPOINT=" << static_cast<std::int64_t>(set.position.size())
         << '\n';
     for (const Vec3& p : set.position) {
       const LonLat place = set.surface->lon_lat(p, LatitudeKind::parametric);

@@ -183,18 +183,18 @@ FaceMesh read_scrip(const std::string& path) {
   const netcdf::Reader file(path);
   FaceMesh mesh;
   read_surface(file, mesh);
-  mesh.face_centre = places(file, "grid_center_lon and grid_center_lat",
-                            read_radians(file, "grid_center_lon"),
-                            read_radians(file, "grid_center_lat"));
+  mesh.face_centre =
+      places(file, "grid_center_lon and grid_center_lat", read_radians(file, "grid_center_lon"),
+             read_radians(file, "grid_center_lat"));
   const netcdf::Variable& shape = file.variable("grid_corner_lat");
   DELOS_CHECK(shape.rank() == 2 && shape.dimensions[0].length == mesh.face_centre.size() &&
                   shape.dimensions[1].length > 0,
               ErrorKind::input, path, ": variable ", shape.shape_text(),
               " must have a row of corners for each of the ", mesh.face_centre.size(),
               " cells of grid_center_lat. The file is no SCRIP grid, or damaged.");
-  std::vector<LonLat> corners = places(file, "grid_corner_lon and grid_corner_lat",
-                                       read_radians(file, "grid_corner_lon"),
-                                       read_radians(file, "grid_corner_lat"));
+  std::vector<LonLat> corners =
+      places(file, "grid_corner_lon and grid_corner_lat", read_radians(file, "grid_corner_lon"),
+             read_radians(file, "grid_corner_lat"));
   settle_poles(corners);
   const std::vector<Index> ids = merge(corners, mesh.node);
   mesh.nodes_on_face = distinct(path, ids, shape.dimensions[1].length);

@@ -44,9 +44,8 @@ TriangleSet triangle_set(const Ellipsoid& surface, LatitudeKind latitude, const 
   for (const Vertex& vertex : mesh.vertices) out.position.push_back(vertex.position());
   out.corners.reserve(mesh.triangles.size());
   for (const Triangle& triangle : mesh.triangles) out.corners.push_back(triangle.vertex);
-  const bool has_spacing =
-      std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
-                  [](const Vertex& vertex) { return vertex.spacing > 0.0; });
+  const bool has_spacing = std::all_of(mesh.vertices.begin(), mesh.vertices.end(),
+                                       [](const Vertex& vertex) { return vertex.spacing > 0.0; });
   if (!has_spacing) return out;
   out.spacing_m.reserve(mesh.vertices.size());
   for (const Vertex& vertex : mesh.vertices) {

@@ -15,11 +15,11 @@ namespace delos {
 struct TriangleSet {
   std::optional<Ellipsoid> surface;  ///< nothing when the file does not say
   LatitudeKind latitude = LatitudeKind::geodetic;
-  Array<Vec3> position;                    ///< [n_points] scaled, on the surface
-  Array<std::array<Index, 3>> corners;     ///< [n_triangles], from 0, in the order of the file
-  std::vector<double> spacing_m;           ///< [n_points] asked for there; empty: not known
-  std::vector<double> depth_m;             ///< [n_points] positive down; empty: not known
-  std::vector<double> level_m;             ///< depths of the levels, 0 first; empty: not known
+  Array<Vec3> position;                 ///< [n_points] scaled, on the surface
+  Array<std::array<Index, 3>> corners;  ///< [n_triangles], from 0, in the order of the file
+  std::vector<double> spacing_m;        ///< [n_points] asked for there; empty: not known
+  std::vector<double> depth_m;          ///< [n_points] positive down; empty: not known
+  std::vector<double> level_m;          ///< depths of the levels, 0 first; empty: not known
 };
 
 /// The triangles of a mesh; spacing when every vertex has one.

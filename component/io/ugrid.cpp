@@ -394,6 +394,13 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Ugri
       return spacing_at_middles(exec, mesh, surface, nodes);
     };
   }
+  if (!surface.edge_spacing_m.empty()) {
+    topology.edge_spacing_m = [&](parallel::Executor&, std::size_t first,
+                                  std::span<const Index> nodes) {
+      const auto slice = surface.edge_spacing_m.subspan(first, nodes.size() / 2);
+      return std::vector<double>(slice.begin(), slice.end());
+    };
+  }
   write_topology(path, topology, surface, provenance, options);
 }
 

@@ -3,6 +3,7 @@
 // UGRID 1.0 files that CDO and ESMF read too, on any ellipsoid, and the spacing on its lat-lon
 // table.
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,9 @@ struct UgridSurface {
   Ellipsoid ellipsoid;
   LatitudeKind latitude = LatitudeKind::geodetic;
   const SpacingField* spacing = nullptr;
+  /// In place of the field: [n_edges], each side once, from the triangle of lower id, in the order
+  /// of triangles and their sides.
+  std::span<const double> edge_spacing_m = {};
 };
 
 /// The triangulation, topology `delos_triangles`: faces are triangles, nodes their corners, face

@@ -24,8 +24,9 @@ struct VtuMesh {
   std::vector<double> cell_spacing_m;  ///< empty when the file has none
 };
 
-/// Reads triangles and polygons in raw appended or ASCII arrays. Error(input) with the array and the
-/// reason for what is compressed, in base64, of other shapes, cut off, or names what is not there.
+/// Reads triangles and polygons in raw appended or ASCII arrays. Error(input) with the array and
+/// the reason for what is compressed, in base64, of other shapes, cut off, or names what is not
+/// there.
 VtuMesh read_vtu(const std::string& path);
 
 }  // namespace delos

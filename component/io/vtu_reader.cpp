@@ -222,8 +222,8 @@ std::vector<T> VtuDocument::values(const std::string& array) const {
 Array<Vec3> points_of(const VtuDocument& file, const std::string& array, std::int64_t n) {
   const std::vector<double> values = file.values<double>(array);
   DELOS_CHECK(values.size() == 3 * static_cast<std::size_t>(n), ErrorKind::input, file.path(),
-              ": the array ", array, " has ", values.size(), " numbers, expected three for each of ",
-              n, ". The file is damaged.");
+              ": the array ", array, " has ", values.size(),
+              " numbers, expected three for each of ", n, ". The file is damaged.");
   Array<Vec3> out(static_cast<std::size_t>(n));
   for (std::size_t i = 0; i < out.size(); ++i) {
     out[i] = {values[3 * i], values[3 * i + 1], values[3 * i + 2]};
@@ -265,14 +265,15 @@ Ragged<Index> faces_of(const VtuDocument& file, std::int64_t n_points, std::int6
   Ragged<Index> out;
   Array<std::int64_t> offsets(1, 0);
   for (std::size_t cell = 0; cell < n; ++cell) {
-    const bool is_face = types[cell] == kTriangle || types[cell] == kPolygon ||
-                         types[cell] == kQuad;
-    DELOS_CHECK(is_face, ErrorKind::input, file.path(), ": cell ", cell, " (from 0) has VTK's type ",
-                types[cell], "; only triangles (5), polygons (7) and quadrangles (9) can be read.");
-    DELOS_CHECK(ends[cell] >= offsets.back() + 3 &&
-                    ends[cell] <= static_cast<std::int64_t>(nodes.size()),
-                ErrorKind::input, file.path(), ": Cells/offsets is ", ends[cell], " for cell ", cell,
-                " (from 0), which begins at ", offsets.back(), ". The file is damaged.");
+    const bool is_face =
+        types[cell] == kTriangle || types[cell] == kPolygon || types[cell] == kQuad;
+    DELOS_CHECK(is_face, ErrorKind::input, file.path(), ": cell ", cell,
+                " (from 0) has VTK's type ", types[cell],
+                "; only triangles (5), polygons (7) and quadrangles (9) can be read.");
+    DELOS_CHECK(
+        ends[cell] >= offsets.back() + 3 && ends[cell] <= static_cast<std::int64_t>(nodes.size()),
+        ErrorKind::input, file.path(), ": Cells/offsets is ", ends[cell], " for cell ", cell,
+        " (from 0), which begins at ", offsets.back(), ". The file is damaged.");
     offsets.push_back(ends[cell]);
   }
   for (std::size_t i = 0; i < static_cast<std::size_t>(offsets.back()); ++i) {

@@ -51,12 +51,10 @@ Provenance provenance_of(const Conversion& conversion, const GridFile& file) {
   return out;
 }
 
-/// What was measured, where the file to be written holds all that it is about.
-void certify(Context& context, const GridFile& file, FileKind kind, Provenance& provenance) {
-  SideSpacing spacing = file.spacing;
-  if (kind == FileKind::ugrid_triangles) spacing = nullptr;  // which needs the field for its edges
+/// What was measured.
+void certify(Context& context, const GridFile& file, Provenance& provenance) {
   const Quality quality =
-      measure_quality(context, file.surface, spacing, *file.mesh, file.latitude);
+      measure_quality(context, file.surface, file.spacing, *file.mesh, file.latitude);
   provenance.certificate = file_certificate(certificate(quality));
 }
 
@@ -64,11 +62,29 @@ void certify(Context& context, const GridFile& file, FileKind kind, Provenance& 
 Grid grid_of(Context& context, const GridFile& file) {
   if (file.grid) return *file.grid;
   Grid grid = build_grid(context, file.surface, file.latitude, *file.mesh);
-  const bool has_spacing =
-      std::all_of(file.mesh->vertices.begin(), file.mesh->vertices.end(),
-                  [](const Vertex& vertex) { return vertex.spacing > 0.0; });
+  const bool has_spacing = std::all_of(file.mesh->vertices.begin(), file.mesh->vertices.end(),
+                                       [](const Vertex& vertex) { return vertex.spacing > 0.0; });
   if (!has_spacing) grid.cell_spacing_m.clear();
+  if (!file.spacing) return grid;
+  grid.edge_spacing_m.reserve(grid.vertices_on_edge.size());
+  for (const auto& [tri, other] : grid.vertices_on_edge) {  // vertex t belongs to triangle t
+    const int side = side_towards(file.mesh->triangle(tri), other);
+    grid.edge_spacing_m.push_back(file.surface.scale_m() * file.spacing(tri, side));
+  }
   return grid;
+}
+
+/// The same for each side once, from the triangle of lower id; empty when it is not known.
+std::vector<double> spacing_by_triangle(const GridFile& file) {
+  std::vector<double> out;
+  if (!file.spacing) return out;
+  for (Index tri = 0; tri < file.mesh->n_triangles(); ++tri) {
+    for (int k = 0; k < 3; ++k) {
+      if (file.mesh->triangle(tri).neighbour[static_cast<std::size_t>(k)] < tri) continue;
+      out.push_back(file.surface.scale_m() * file.spacing(tri, k));
+    }
+  }
+  return out;
 }
 
 /// The folder of the three files of FESOM2, removed again when they do not come to be.
@@ -96,10 +112,9 @@ void write_triangles(const std::string& path, FileKind kind, const TriangleSet& 
     case FileKind::fesom:
       return write_into_folder(path, set);
     default:
-      throw Error(ErrorKind::input,
-                  text("triangles with a border can't be made into ",
-                       file_kind_names()[static_cast<std::size_t>(kind)],
-                       ", only into vtu, gmsh, jigsaw or fesom."));
+      throw Error(ErrorKind::input, text("triangles with a border can't be made into ",
+                                         file_kind_names()[static_cast<std::size_t>(kind)],
+                                         ", only into vtu, gmsh, jigsaw or fesom."));
   }
 }
 
@@ -112,9 +127,11 @@ void write_closed(Context& context, const GridFile& file, const Conversion& conv
     set.level_m = file.level_m;
     return write_triangles(path, conversion.kind, set);
   }
-  certify(context, file, conversion.kind, provenance);
+  certify(context, file, provenance);
   if (conversion.kind == FileKind::ugrid_triangles) {
-    return write_ugrid_triangles(path, *file.mesh, {file.surface, file.latitude}, provenance,
+    const std::vector<double> spacing_m = spacing_by_triangle(file);
+    return write_ugrid_triangles(path, *file.mesh,
+                                 {file.surface, file.latitude, nullptr, spacing_m}, provenance,
                                  {netcdf::Format::cdf5, true, &context.exec});
   }
   const Grid grid = grid_of(context, file);
@@ -122,8 +139,7 @@ void write_closed(Context& context, const GridFile& file, const Conversion& conv
     case FileKind::mpas:
       return write_mpas(path, grid, provenance, {netcdf::Format::cdf5, false, &context.exec});
     case FileKind::ugrid_cells:
-      return write_ugrid_cells(path, grid, provenance,
-                               {netcdf::Format::cdf5, true, &context.exec});
+      return write_ugrid_cells(path, grid, provenance, {netcdf::Format::cdf5, true, &context.exec});
     case FileKind::scrip:
       return write_scrip(path, grid, provenance, {netcdf::Format::cdf5, &context.exec});
     case FileKind::esmf:

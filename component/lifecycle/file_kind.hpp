@@ -20,15 +20,15 @@ enum class FileKind {
 
 /// As `output.formats` and `--to` name them, in the order of FileKind.
 inline std::vector<std::string> file_kind_names() {
-  return {"mpas", "ugrid_triangles", "ugrid_cells", "scrip", "esmf",
-          "vtu",  "gmsh",            "jigsaw",      "fesom"};
+  return {"mpas", "ugrid_triangles", "ugrid_cells", "scrip", "esmf", "vtu",
+          "gmsh", "jigsaw",          "fesom"};
 }
 
 /// What follows the name of a grid: "mpas.nc", "vtu", ...
 inline std::string file_ending(FileKind kind) {
-  const std::vector<std::string> endings = {"mpas.nc", "ugrid_triangles.nc", "ugrid_cells.nc",
-                                            "scrip.nc", "esmf.nc", "vtu",
-                                            "gmsh.msh", "jigsaw.msh", "fesom"};
+  const std::vector<std::string> endings = {
+      "mpas.nc", "ugrid_triangles.nc", "ugrid_cells.nc", "scrip.nc", "esmf.nc",
+      "vtu",     "gmsh.msh",           "jigsaw.msh",     "fesom"};
   return endings[static_cast<std::size_t>(kind)];
 }
 

@@ -156,8 +156,8 @@ Array<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lo
   return out;
 }
 
-/// Triangles become the mesh, other polygons the Voronoi cells of one; `edges` when the file has the
-/// spacing there.
+/// Triangles become the mesh, other polygons the Voronoi cells of one; `edges` when the file has
+/// the spacing there.
 void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = nullptr) {
   if (faces.ellipsoid) out.surface = *faces.ellipsoid;
   out.latitude = faces.latitude;
@@ -171,9 +171,10 @@ void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = n
     if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::vertices, edges->edge_spacing_m});
     return;
   }
-  DELOS_CHECK(faces.face_centre.size() == n_faces, ErrorKind::input, out.path,
-              ": the faces are no triangles and have no centres (face_coordinates in UGRID), so the "
-              "points of the Voronoi diagram are not known.");
+  DELOS_CHECK(
+      faces.face_centre.size() == n_faces, ErrorKind::input, out.path,
+      ": the faces are no triangles and have no centres (face_coordinates in UGRID), so the "
+      "points of the Voronoi diagram are not known.");
   Array<Vertex> centres = surface_points(out, faces.face_centre);
   const Corners corners = node_faces(out.path, faces, centres);
   const bool is_closed =
@@ -186,7 +187,7 @@ void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = n
 void take_triangles(GridFile& out, TriangleSet set) {
   out.surface = *set.surface;
   out.latitude = set.latitude;
-  orient(set);
+  out.n_turned = orient(set);
   if (!is_closed(set)) {
     out.triangles = std::move(set);
     return;

@@ -37,6 +37,7 @@ struct GridFile {
   /// Triangles with a border, as VTU, Gmsh, JIGSAW and FESOM2 files may have; then there is neither
   /// of the others.
   std::optional<TriangleSet> triangles;
+  std::int64_t n_turned = 0;  ///< triangles that were clockwise in a VTU, Gmsh, JIGSAW, FESOM2 file
   std::vector<double> depth_m, level_m;  ///< at the mesh's vertices; FESOM2 only, else empty
 };
 
@@ -45,8 +46,8 @@ struct GridFile {
 std::vector<std::string> grid_files(const std::string& path);
 
 /// Reads a grid file of any kind (see FileOrigin::format), by its content. Polygons must be Voronoi
-/// cells with their centres, or triangles. Error(input) with the reason when the file is none or its
-/// tables name what is not there.
+/// cells with their centres, or triangles. Error(input) with the reason when the file is none or
+/// its tables name what is not there.
 GridFile read_grid_file(Context& context, const std::string& path);
 
 /// Closes triangles over points into a mesh: finds the neighbours. Error(input), naming the edge,

@@ -137,10 +137,10 @@ OutputSettings read_output(MapReader keys) {
   if (out.name.empty() || out.name.find('/') != std::string::npos) {
     keys.fail("name", "'", out.name, "' is no file name; the folder goes to `directory`.");
   }
-  const auto formats = keys.strings("formats",
-      {"mpas", "ugrid_triangles", "ugrid_cells", "scrip", "esmf", "vtu", "gmsh", "jigsaw",
-       "fesom"},
-                                    {"mpas", "ugrid_triangles", "ugrid_cells"});
+  const auto formats = keys.strings(
+      "formats",
+      {"mpas", "ugrid_triangles", "ugrid_cells", "scrip", "esmf", "vtu", "gmsh", "jigsaw", "fesom"},
+      {"mpas", "ugrid_triangles", "ugrid_cells"});
   const auto wanted = [&](const char* format) {
     return std::find(formats.begin(), formats.end(), format) != formats.end();
   };

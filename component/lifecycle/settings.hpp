@@ -9,8 +9,8 @@
 
 #include "geometry/ellipsoid.hpp"
 #include "io/rasters.hpp"
-#include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/file_kind.hpp"
+#include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
 #include "refine/refine.hpp"

@@ -46,6 +46,21 @@ must 'info shows digest and configuration' sh -c "'$delos' info out/small.mpas.n
   grep -q '^digest *[0-9a-f]\{64\}$' info.txt && grep -q '500 km' info.txt"
 must 'check refuses what is no grid' sh -c "! '$delos' check c.yaml 2>check_error.txt && grep -q '^delos: error' check_error.txt"
 
+# Every kind of file into every other, none worse than its source.
+must 'mesh writes the other kinds too' sh -c "
+  '$delos' mesh c.yaml -o more --quiet --set 'output.formats=[scrip, esmf, vtu, gmsh, jigsaw, fesom]' &&
+  test -s more/small.scrip.nc && test -s more/small.fesom/nod2d.out"
+cp out/small.mpas.nc out/small.ugrid_cells.nc out/small.ugrid_triangles.nc more
+for from in mpas.nc ugrid_triangles.nc ugrid_cells.nc scrip.nc esmf.nc vtu gmsh.msh jigsaw.msh fesom; do
+  for to in mpas.nc ugrid_triangles.nc ugrid_cells.nc scrip.nc esmf.nc vtu gmsh.msh jigsaw.msh fesom; do
+    must "convert makes $to from $from" sh -c "
+      '$delos' convert more/small.$from converted.$to >/dev/null && '$delos' check converted.$to >converted.txt"
+    rm -rf "converted.$to"
+  done
+done
+must 'convert refuses an ending that says nothing' sh -c "
+  ! '$delos' convert out/small.mpas.nc x.nc 2>convert_error.txt && grep -q -e '--to' convert_error.txt && test ! -e x.nc"
+
 # What rounding makes of coordinates counts more the shorter the edges are.
 cat >fine.yaml <<'YAML'
 sizing:

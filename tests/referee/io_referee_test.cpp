@@ -3,13 +3,16 @@
 // DELOS_REFEREE_TOOLS names (check_mpas.py, check_mesh.py) and CDO.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
+#include <sstream>
 #include <string>
 
 #include "io/mpas.hpp"
+#include "io/scrip.hpp"
 #include "io/ugrid.hpp"
 #include "support/sample_grids.hpp"
 #include "support/temporary_folder.hpp"
@@ -156,4 +159,30 @@ TEST_CASE("CDO takes the grid of both UGRID files and finds the areas in them") 
     CHECK_MESSAGE(compared.status == 0, compared.output);
     CHECK_MESSAGE(std::abs(std::atof(compared.output.c_str())) < 1e-9, compared.output);
   }
+}
+
+TEST_CASE("CDO takes the grid of a SCRIP file and finds the areas in it") {
+  if (!has_cdo()) return;
+  const TemporaryFolder folder;
+  const double radius_m = 6371000.0;  // CDO's own
+  const Ellipsoid sphere = Ellipsoid::sphere(radius_m);
+  const delos::Grid grid =
+      delos::samples::grid_of(sphere, delos::samples::bisected_icosahedron(sphere, 3));
+  const std::string path = folder.file("scrip.nc");
+  delos::write_scrip(path, grid, {});
+  const Outcome description = run("cdo -s griddes -const,1," + path);
+  CHECK_MESSAGE(description.status == 0, description.output);
+  CHECK(description.says("gridtype  = unstructured"));
+  CHECK(description.says("gridsize  = 642"));
+  CHECK(description.says("xbounds"));
+  const Outcome areas = run("cdo -s -outputf,%.17g,1 -gridarea -const,1," + path);
+  CHECK_MESSAGE(areas.status == 0, areas.output);
+  std::istringstream lines(areas.output);
+  double worst = 0.0, area_m2 = 0.0;
+  std::size_t n = 0;
+  for (; lines >> area_m2 && n < grid.cell_area_m2.size(); ++n) {
+    worst = std::max(worst, std::abs(area_m2 / grid.cell_area_m2[n] - 1.0));
+  }
+  CHECK(n == 642);
+  CHECK(worst < 1e-9);
 }

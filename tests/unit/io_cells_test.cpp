@@ -119,8 +119,8 @@ TEST_CASE("VTU triangles with a border are read back with their data") {
   const TemporaryFolder folder;
   const std::string path = folder.file("triangles.vtu");
   const Ellipsoid body = Ellipsoid::wgs84();
-  delos::TriangleSet set =
-      delos::triangle_set(body, delos::LatitudeKind::geodetic, delos::samples::shaken(body, 2, 0.1, 5));
+  delos::TriangleSet set = delos::triangle_set(body, delos::LatitudeKind::geodetic,
+                                               delos::samples::shaken(body, 2, 0.1, 5));
   CHECK(delos::is_closed(set));
   set.corners.resize(set.corners.size() / 2);
   CHECK(!delos::is_closed(set));
@@ -145,7 +145,8 @@ TEST_CASE("VTU in ASCII is read; what can't be read is refused with its reason")
       "2 0 0 0 2 0\n0 0 2</DataArray></Points>\n";
   const auto cells = [](const std::string& nodes) {
     return "<Cells><DataArray type=\"Int32\" Name=\"connectivity\" format=\"ascii\">" + nodes +
-           "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" format=\"ascii\">3</DataArray>\n"
+           "</DataArray>\n<DataArray type=\"Int32\" Name=\"offsets\" "
+           "format=\"ascii\">3</DataArray>\n"
            "<DataArray type=\"UInt8\" Name=\"types\" format=\"ascii\">5</DataArray></Cells>\n";
   };
   const std::string tail = "</Piece></UnstructuredGrid></VTKFile>\n";
