@@ -44,6 +44,7 @@ Case Case::steady_flow() {
   flow.north_rad_ = pi / 2.0;
   flow.datum_m_ = 2.94e4 / Physics{}.gravity_m_s2;
   flow.ground_m_ = flow.bump_m_ = nothing;
+  flow.view_.largest = 2e-5;
   flow.days_ = 5.0;
   flow.is_steady_ = true;
   return flow;
@@ -58,6 +59,7 @@ Case Case::mountain() {
     const double r = std::hypot(lon - 1.5 * pi, lat - pi / 6.0);
     return kHeight_m * (1.0 - std::min(r, kRadius) / kRadius);
   };
+  flow.view_.largest = 5e-5;
   flow.days_ = 15.0;
   flow.is_steady_ = false;
   return flow;
@@ -70,8 +72,8 @@ Case Case::jet() {
   flow.north_rad_ = kNorth;
   flow.zonal_m_s_ = [](double lat) {
     if (lat <= kSouth || lat >= kNorth) return 0.0;
-    constexpr double kMost_m_s = 80.0, kWidth = kNorth - kSouth;
-    return kMost_m_s * std::exp(1.0 / ((lat - kSouth) * (lat - kNorth)) + 4.0 / (kWidth * kWidth));
+    constexpr double kMost = 80.0, kWidth = kNorth - kSouth;
+    return kMost * std::exp(1.0 / ((lat - kSouth) * (lat - kNorth)) + 4.0 / (kWidth * kWidth));
   };
   flow.datum_m_ = 10000.0;
   flow.is_mean_ = true;
@@ -81,6 +83,7 @@ Case Case::jet() {
     const double x = east * 3.0, y = (pi / 4.0 - lat) * 15.0;
     return 120.0 * std::cos(lat) * std::exp(-x * x - y * y);
   };
+  flow.view_ = {.south_deg = 10.0, .north_deg = 80.0, .largest = 1.5e-4};
   flow.days_ = 6.0;
   return flow;
 }

@@ -11,6 +11,12 @@
 
 namespace shallow_water {
 
+/// What to look at: a map between two latitudes, and the vorticity in 1/s that is dark red there.
+struct View {
+  double south_deg = -90.0, north_deg = 90.0;
+  double largest = 1.0;
+};
+
 struct Start {
   std::vector<double> ground_m;  ///< [n_cells]
   Flow flow;
@@ -27,6 +33,7 @@ class Case {
   /// Depths are those at the cells' points; velocities the differences of a stream function, so
   /// that they have no divergence.
   Start start(const delos::Grid& grid, const Physics& physics) const;
+  const View& view() const { return view_; }
   double days() const { return days_; }
   /// The start is the solution for all time.
   bool is_steady() const { return is_steady_; }
@@ -45,6 +52,7 @@ class Case {
   double datum_m_ = 0.0;                      // height of the surface at the equator,
   bool is_mean_ = false;                      // or its mean over the sphere
   Height ground_m_, bump_m_;
+  View view_;
   double days_ = 0.0;
   bool is_steady_ = false;
 };

@@ -2,10 +2,13 @@
 // A model of shallow water that makes its grid with delos when it starts.
 #include <tbb/global_control.h>
 
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <exception>
+#include <filesystem>
+#include <fstream>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -13,6 +16,9 @@
 #include "cases.hpp"
 #include "model.hpp"
 #include "norms.hpp"
+#ifdef SHALLOW_WATER_PICTURES
+#include "picture.hpp"
+#endif
 
 namespace {
 
@@ -28,6 +34,7 @@ constexpr char kUsage[] =
     "  --days D        the case's own when left out: 5, 15, 6\n"
     "  --every H       hours from one line to the next, 24\n"
     "  --threads N     2; the results do not depend on it\n"
+    "  --out FOLDER    pictures of vorticity and grid, one for every line, and their animation\n"
     "  --courant C     0.7\n"
     "  --anticipation  of potential vorticity in steps: 0 keeps it, 0.5 smoothes it\n"
     "  --set KEY=VALUE of the configuration, as often as wanted\n";
@@ -39,6 +46,7 @@ struct Arguments {
   double courant = 0.7;
   double anticipation = 0.0;
   int threads = 2;
+  std::string folder;
   std::vector<std::string> settings;
 };
 
@@ -74,6 +82,8 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.anticipation = number(option, value, 0.0);
     } else if (option == "--threads") {
       arguments.threads = static_cast<int>(number(option, value, 1.0));
+    } else if (option == "--out") {
+      arguments.folder = value;
     } else if (option == "--set") {
       arguments.settings.push_back(value);
     } else {
@@ -120,6 +130,52 @@ class Table {
   bool with_errors_;
 };
 
+/// Keeps a picture for every line when a folder was named.
+class Album {
+ public:
+  explicit Album(const Arguments& arguments) : arguments_(arguments) {
+    if (arguments.folder.empty()) return;
+#ifdef SHALLOW_WATER_PICTURES
+    std::filesystem::create_directories(arguments.folder);
+#else
+    throw std::invalid_argument("--out: this program was built without cairo, so it can't draw.");
+#endif
+  }
+#ifdef SHALLOW_WATER_PICTURES
+  void take(const Model& model, const Case& flow, double day) {
+    if (arguments_.folder.empty()) return;
+    std::array<char, 120> title;
+    std::snprintf(title.data(), title.size(),
+                  "%s, day %.2f: vorticity from %.1e to %.1e 1/s, %lld cells",
+                  arguments_.case_name.c_str(), day, -flow.view().largest, flow.view().largest,
+                  static_cast<long long>(model.grid().n_cells()));
+    pictures_.push_back(draw(model.grid(), model.vorticity(), flow.view(), title.data()));
+    std::array<char, 40> name;
+    std::snprintf(name.data(), name.size(), "_%03zu.png", pictures_.size() - 1);
+    write(name.data(), pictures_.back());
+  }
+  void close() const {
+    if (!arguments_.folder.empty()) write(".apng", shallow_water::animate(pictures_));
+  }
+
+ private:
+  void write(const std::string& ending, const std::string& bytes) const {
+    const std::string path = arguments_.folder + "/" + arguments_.case_name + ending;
+    std::ofstream file(path, std::ios::binary);
+    file << bytes;
+    file.close();
+    if (!file) throw std::runtime_error(path + " can't be written.");
+  }
+  std::vector<std::string> pictures_;
+#else
+  void take(const Model&, const Case&, double) {}
+  void close() const {}
+
+ private:
+#endif
+  const Arguments& arguments_;
+};
+
 void simulate(const Arguments& arguments) {
   const Case flow = Case::named(arguments.case_name);
   const shallow_water::Physics physics{.anticipation = arguments.anticipation};
@@ -133,6 +189,8 @@ void simulate(const Arguments& arguments) {
   const auto n_intervals = static_cast<int>(std::lround(days * 24.0 / arguments.every_h));
   std::printf("%s on %lld cells, steps of %.0f s\n", arguments.case_name.c_str(),
               static_cast<long long>(grid.n_cells()), model.step_s(arguments.courant));
+  Album album(arguments);
+  album.take(model, flow, 0.0);
   const Table table(model, flow.is_steady());
   double n_steps = 0.0, busy_s = 0.0;
   for (int interval = 1; interval <= n_intervals; ++interval) {
@@ -142,7 +200,9 @@ void simulate(const Arguments& arguments) {
     busy_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
     n_steps += n;
     table.line(model, interval * arguments.every_h / 24.0);
+    album.take(model, flow, interval * arguments.every_h / 24.0);
   }
+  album.close();
   std::printf("%.0f steps, %.3g cell-steps/s\n", n_steps,
               n_steps * static_cast<double>(grid.n_cells()) / busy_s);
 }
