@@ -281,8 +281,9 @@ std::vector<std::vector<Index>> flood_holes(const OldMesh& old, const Region& re
   hole_of.assign(mesh.triangles.size(), kNone);
   std::vector<std::vector<Index>> holes;
   for (Index v = 0; v < mesh.n_vertices(); ++v) {
+    if (region.change[at(v)] != Change::remove) continue;
     const Index seed = old.at_vertex[at(v)];
-    if (region.change[at(v)] != Change::remove || hole_of[at(seed)] != kNone) continue;
+    if (hole_of[at(seed)] != kNone) continue;
     const auto hole = static_cast<Index>(holes.size());
     std::vector<Index> inside{seed};
     hole_of[at(seed)] = hole;
@@ -343,10 +344,11 @@ std::vector<std::size_t> largest_first(std::size_t n, const Size& size) {
 Holes make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
                  const Region& region) {
   Holes out;
-  const std::vector<std::vector<Index>> inside = flood_holes(old, region, out.hole_of);
+  std::vector<std::vector<Index>> inside = flood_holes(old, region, out.hole_of);
   out.holes.resize(inside.size());
   const bool by_balls = surface.radii().minCoeff() < kFlattestForPlanes;
-  const auto order = largest_first(inside.size(), [&](std::size_t i) { return inside[i].size(); });
+  const std::vector<std::size_t> order =
+      largest_first(inside.size(), [&](std::size_t i) { return inside[i].size(); });
   parallel::for_index(context.exec, static_cast<std::int64_t>(inside.size()), kHoleGrain,
                       [&](std::int64_t i) {
                         context.monitor.check_cancelled();
@@ -355,6 +357,7 @@ Holes make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
                         emptying.remove(region.change);
                         emptying.restore_delaunay(by_balls);
                         out.holes[hole] = emptying.take();
+                        out.holes[hole].old_triangles = std::move(inside[hole]);
                       });
   return out;
 }

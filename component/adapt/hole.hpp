@@ -13,6 +13,7 @@ namespace delos {
 /// Connected triangles around removed vertices, after these have gone. A triangle's neighbour
 /// across side number b of the border is ~b.
 struct Hole {
+  std::vector<Index> old_triangles;  ///< those that it was made of, ascending
   /// Old ids, ascending: those on the border, and the few inside that had to stay because without
   /// them a triangle would span too much of the surface.
   std::vector<Index> vertices;

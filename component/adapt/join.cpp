@@ -7,7 +7,8 @@ namespace delos {
 namespace {
 
 constexpr std::int64_t kCopyGrain = 16384;  // vertices or triangles a task: some ten microseconds
-constexpr std::int64_t kHoleGrain = 1;      // a filling is at least some hundred triangles
+constexpr std::size_t kLeastRoom = 64, kRoomShare = 16;  // polish adds below 1 % of new vertices
+constexpr std::int64_t kHoleGrain = 1;  // a filling is at least some hundred triangles
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -47,7 +48,11 @@ class Joiner {
  public:
   Joiner(parallel::Executor& exec, const OldMesh& old, const Holes& holes,
          const std::vector<TileMesh>& fillings)
-      : exec_(exec), old_(old.mesh), holes_(holes), fillings_(fillings) {}
+      : exec_(exec),
+        old_(old.mesh),
+        at_old_vertex_(old.at_vertex),
+        holes_(holes),
+        fillings_(fillings) {}
 
   Joined run() {
     number();
@@ -59,6 +64,10 @@ class Joiner {
       for (const TriangleSide& side : fillings_[hole].border) {
         out_.hole_sides.push_back(places_[hole].triangle + side.triangle);
       }
+    }
+    // One after the other: fillings share vertices.
+    for (Index tri = out_.first_filling; tri < out_.mesh.n_triangles(); ++tri) {
+      for (const Index v : out_.mesh.triangle(tri).vertex) out_.at_vertex[at(v)] = tri;
     }
     std::sort(out_.hole_sides.begin(), out_.hole_sides.end());
     out_.new_id = std::move(vertex_.of);
@@ -73,6 +82,7 @@ class Joiner {
 
   parallel::Executor& exec_;
   const Mesh& old_;
+  const std::vector<Index>& at_old_vertex_;
   const Holes& holes_;
   const std::vector<TileMesh>& fillings_;
   NewIds vertex_, triangle_;
@@ -83,9 +93,10 @@ class Joiner {
 void Joiner::number() {
   // Gone are the vertices of the holes' triangles that the emptied hole has no more.
   std::vector<char> is_gone(old_.vertices.size(), 0);
-  for (Index tri = 0; tri < old_.n_triangles(); ++tri) {
-    if (holes_.hole_of[at(tri)] == kNone) continue;
-    for (const Index v : old_.triangle(tri).vertex) is_gone[at(v)] = 1;
+  for (const Hole& hole : holes_.holes) {
+    for (const Index tri : hole.old_triangles) {
+      for (const Index v : old_.triangle(tri).vertex) is_gone[at(v)] = 1;
+    }
   }
   for (const Hole& hole : holes_.holes) {
     for (const Index v : hole.vertices) is_gone[at(v)] = 0;
@@ -102,14 +113,22 @@ void Joiner::number() {
     next.vertex += static_cast<Index>(filling.inserted.size());
     next.triangle += static_cast<Index>(filling.triangles.size());
   }
+  // Room for what relaxation puts in, so that nothing is copied again for a few vertices.
+  const std::size_t room = kLeastRoom + at(next.vertex - vertex_.n_left) / kRoomShare;
+  out_.mesh.vertices.reserve(at(next.vertex) + room);
+  out_.mesh.triangles.reserve(at(next.triangle) + 2 * room);
   out_.mesh.vertices.resize(at(next.vertex));
   out_.mesh.triangles.resize(at(next.triangle));
+  out_.at_vertex.reserve(at(next.vertex) + room);
+  out_.at_vertex.resize(at(next.vertex));
 }
 
 void Joiner::copy_vertices() {
   parallel::for_index(exec_, old_.n_vertices(), kCopyGrain, [&](std::int64_t v) {
     const Index id = vertex_.of[at(v)];
-    if (id != kNone) out_.mesh.vertices[at(id)] = old_.vertices[at(v)];
+    if (id == kNone) return;
+    out_.mesh.vertices[at(id)] = old_.vertices[at(v)];
+    out_.at_vertex[at(id)] = triangle_.of[at(at_old_vertex_[at(v)])];
   });
 }
 

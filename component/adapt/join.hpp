@@ -9,6 +9,7 @@ namespace delos {
 
 struct Joined {
   Mesh mesh;                      ///< survivors in order, then new ones hole by hole
+  std::vector<Index> at_vertex;   ///< one triangle at each vertex
   std::vector<Index> new_id;      ///< by old vertex; kNone when it is gone
   std::vector<Index> hole_sides;  ///< triangles at the holes' borders, ascending
   Index first_inserted = 0;       ///< vertices from this id on are new

@@ -22,7 +22,7 @@ struct RegionOptions {
   /// ... for at most so many rings.
   int blend_rings = 12;
   /// Rings around what is removed whose vertices stay but may move.
-  int moving_rings = 2;
+  int moving_rings = 0;
   /// Regions of fewer wanted vertices are left alone.
   int least_wanted = 12;
 };

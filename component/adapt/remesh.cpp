@@ -134,6 +134,7 @@ class LocalRemesh {
   RemeshReport& report_;
   Mesh mesh_;
   RelaxPart part_;
+  Index n_survivors_ = 0;  // of the old vertices, when the holes were emptied
   // Old ids of the vertices that are not free, ascending. Nothing changes their order, so that the
   // i-th vertex that is not free is kept_[i].
   std::vector<Index> kept_;
@@ -146,7 +147,7 @@ void LocalRemesh::fill(const OldMesh& old) {
       context_, {input_.surface, input_.spacing, options_.refine, old, region_}, holes.holes);
   Joined joined = join(context_.exec, old, holes, fillings);
   report_.n_regions = static_cast<std::int64_t>(holes.holes.size());
-  report_.n_inserted = joined.mesh.n_vertices() - joined.first_inserted;
+  n_survivors_ = joined.first_inserted;
   report_.n_removed = old.mesh.n_vertices() - joined.first_inserted;
   std::vector<char> is_free = set_free(context_.exec, input_.spacing, region_, joined);
   // On an ellipsoid the hull predicate of the tile kernel differs a little from the surface
@@ -157,8 +158,13 @@ void LocalRemesh::fill(const OldMesh& old) {
     std::iota(suspects.begin(), suspects.end(), joined.first_filling);
   }
   mesh_ = std::move(joined.mesh);
-  restore_delaunay_around(context_.exec, mesh_, input_.surface, suspects);
-  part_ = make_relax_part(context_.exec, mesh_, std::move(is_free));
+  std::vector<Index> flipped;
+  restore_delaunay_around(context_.exec, mesh_, input_.surface, suspects, &flipped);
+  for (const Index tri : flipped) {
+    for (const Index v : mesh_.triangle(tri).vertex) joined.at_vertex[at(v)] = tri;
+  }
+  part_ = {std::move(is_free), {}, std::move(joined.at_vertex)};
+  part_.triangles = triangles_of_free(context_.exec, mesh_, part_.is_free);
   for (Index v = 0; v < old.mesh.n_vertices(); ++v) {
     if (region_.change[at(v)] == Change::keep) kept_.push_back(v);
   }
@@ -166,9 +172,9 @@ void LocalRemesh::fill(const OldMesh& old) {
 
 // Sets the vertices around the triangles free; false when there is none that may be.
 bool LocalRemesh::release(const Missed& missed) {
-  const std::vector<Index> at_vertex = triangle_at_vertex(context_.exec, mesh_);
+  part_.at_vertex = triangle_at_vertex(context_.exec, mesh_);
+  const std::vector<Index>& at_vertex = part_.at_vertex;
   std::vector<char>& is_free = part_.is_free;
-  // 2: near, but not free yet.
   std::vector<Index> near;
   for (const Index tri : missed.triangles) {
     const auto& v = mesh_.triangle(tri).vertex;
@@ -214,7 +220,7 @@ Remeshed LocalRemesh::run(const OldMesh& old) {
   RelaxOptions again = options_.relax;
   again.spring_rounds = 0;
   for (;;) {
-    part_ = make_relax_part(context_.exec, mesh_, std::move(part_.is_free));
+    part_.triangles = triangles_of_free(context_.exec, mesh_, part_.is_free);
     const Missed missed = find_missed(context_.exec, input_.spacing, mesh_, part_);
     report_.n_obtuse = missed.n_obtuse;
     report_.n_short = missed.n_short;
@@ -223,7 +229,7 @@ Remeshed LocalRemesh::run(const OldMesh& old) {
       break;
     }
     ++report_.release_rounds;
-    part_ = make_relax_part(context_.exec, mesh_, std::move(part_.is_free));
+    part_.triangles = triangles_of_free(context_.exec, mesh_, part_.is_free);
     relax_part(context_, target, again, part_, mesh_);
   }
   return finish();
@@ -231,8 +237,9 @@ Remeshed LocalRemesh::run(const OldMesh& old) {
 
 Remeshed LocalRemesh::finish() {
   report_.n_kept = static_cast<std::int64_t>(kept_.size());
-  report_.n_moved = mesh_.n_vertices() - report_.n_kept - report_.n_inserted;
-  report_.changed_area = area(mesh_, part_.triangles);
+  report_.n_moved = n_survivors_ - report_.n_kept;
+  report_.n_inserted = mesh_.n_vertices() - n_survivors_;
+  report_.changed_area = area(mesh_, part_.triangles) / input_.surface.area();
   Remeshed out{std::move(mesh_), std::vector<Index>(region_.change.size(), kNone)};
   std::size_t next_kept = 0;
   for (Index v = 0; v < out.mesh.n_vertices(); ++v) {

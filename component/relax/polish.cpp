@@ -2,6 +2,7 @@
 #include "relax/polish.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "relax/patch.hpp"
 #include "relax/repair.hpp"
@@ -308,7 +309,8 @@ void compact_all(parallel::Executor& exec, Mesh& mesh, RelaxPart* part, MeshEdit
 PolishReport polish(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
                     RelaxPart* part) {
   PolishReport report;
-  TriangleAtVertex at_vertex = triangle_at_vertex(context.exec, mesh);
+  TriangleAtVertex at_vertex =
+      part == nullptr ? triangle_at_vertex(context.exec, mesh) : std::move(part->at_vertex);
   const MeshView view{mesh, at_vertex, part};
   const std::int64_t n_triangles =
       static_cast<std::int64_t>(part == nullptr ? mesh.triangles.size() : part->triangles.size());

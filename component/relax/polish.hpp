@@ -19,7 +19,7 @@ struct PolishReport {
 /// triangle whose patch gained nothing gets stronger means the next time: vertices may come and
 /// go, then more rings; when the strongest have failed it is left, and counted in the report.
 /// With a part, only triangles with a free corner are looked at and only free vertices move or go;
-/// the part is kept up to date.
+/// part->is_free is kept up to date.
 PolishReport polish(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
                     RelaxPart* part = nullptr);
 

@@ -54,11 +54,15 @@ bool has_free_corner(const Triangle& t, const std::vector<char>& is_free) {
          is_free[static_cast<std::size_t>(t.vertex[2])] != 0;
 }
 
-// Flips may give a triangle its first free corner.
-void update_triangles(const Mesh& mesh, const std::vector<Index>& flipped, RelaxPart& part) {
+// Flips may give a triangle its first free corner, and take a vertex from another.
+void update_part(const Mesh& mesh, const std::vector<Index>& flipped, RelaxPart& part) {
   std::vector<Index> all = flipped;
   std::sort(all.begin(), all.end());
   all.erase(std::unique(all.begin(), all.end()), all.end());
+  for (const Index tri : all) {
+    for (const Index v : mesh.triangle(tri).vertex)
+      part.at_vertex[static_cast<std::size_t>(v)] = tri;
+  }
   std::vector<Index> merged;
   std::set_union(part.triangles.begin(), part.triangles.end(), all.begin(), all.end(),
                  std::back_inserter(merged));
@@ -75,8 +79,7 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
   }
   const auto n = static_cast<std::int64_t>(vertices.size());
   const Phase phase(context.monitor, "relax", options.spring_rounds * n);
-  SpringPart springs{{context.exec, mesh, triangle_at_vertex(context.exec, mesh), std::move(vertices)},
-                     part.triangles};
+  SpringPart springs{{context.exec, mesh, part.at_vertex, std::move(vertices)}, part.triangles};
   Array<Vertex> other;
   for (int round = 0; round < options.spring_rounds; ++round) {
     context.monitor.check_cancelled();
@@ -87,7 +90,7 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
       report.n_flips +=
           restore_delaunay_around(context.exec, mesh, target.surface, springs.triangles, &flipped);
       springs.rows.update(mesh, flipped);
-      update_triangles(mesh, flipped, part);
+      update_part(mesh, flipped, part);
       springs.triangles = part.triangles;
     }
     context.monitor.advance(n);
@@ -116,16 +119,15 @@ RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField
   return report;
 }
 
-RelaxPart make_relax_part(parallel::Executor& exec, const Mesh& mesh, std::vector<char> is_free) {
-  RelaxPart part{std::move(is_free), {}};
-  part.triangles = parallel::collect<Index>(
+std::vector<Index> triangles_of_free(parallel::Executor& exec, const Mesh& mesh,
+                                     const std::vector<char>& is_free) {
+  return parallel::collect<Index>(
       exec, mesh.n_triangles(), kPartGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
-          if (has_free_corner(mesh.triangle(tri), part.is_free)) found.push_back(tri);
+          if (has_free_corner(mesh.triangle(tri), is_free)) found.push_back(tri);
         }
       });
-  return part;
 }
 
 RelaxReport relax_part(Context& context, const Target& target, const RelaxOptions& options,

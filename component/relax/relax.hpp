@@ -42,15 +42,18 @@ RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField
 /// The part of a mesh that a local relaxation may move.
 struct RelaxPart {
   std::vector<char> is_free;     ///< [n_vertices]
-  std::vector<Index> triangles;  ///< all that have a free corner, ascending
+  std::vector<Index> triangles;  ///< of triangles_of_free()
+  std::vector<Index> at_vertex;  ///< one triangle at each vertex
 };
 
-/// RelaxPart::triangles of these free vertices.
-RelaxPart make_relax_part(parallel::Executor& exec, const Mesh& mesh, std::vector<char> is_free);
+/// Triangles that have a free corner, ascending; is_free: [n_vertices].
+std::vector<Index> triangles_of_free(parallel::Executor& exec, const Mesh& mesh,
+                                     const std::vector<char>& is_free);
 
 /// The same for a part: all other vertices keep their coordinates and spacing bit for bit, and stay
-/// in their order where free ones go; `part` is kept up to date. Only triangles with a free corner
-/// count. A few of them may be left below the target because of vertices that may not move.
+/// in their order where free ones go; of `part`, is_free is kept up to date and the rest used up.
+/// Only triangles with a free corner count. A few of them may be left below the target because of
+/// vertices that may not move.
 RelaxReport relax_part(Context& context, const Target& target, const RelaxOptions& options,
                        RelaxPart& part, Mesh& mesh);
 

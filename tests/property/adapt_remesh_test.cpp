@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+#include <atomic>
+#include <cmath>
 #include <cstring>
 
 #include "metrics/quality.hpp"
@@ -69,6 +72,43 @@ void check_kept(const Mesh& before, const Remeshed& after, const RemeshReport& r
   CHECK(n_kept == report.n_kept);
 }
 
+Remeshed remeshed(Context& context, const Scene& scene, const Mesh& before, RemeshReport& report,
+                  const std::vector<char>& is_fixed = {}) {
+  return remesh(context, {scene.surface, scene.after, before, is_fixed}, {}, report);
+}
+
+std::vector<std::vector<Index>> neighbours(const Mesh& mesh) {
+  std::vector<std::vector<Index>> out(mesh.vertices.size());
+  for (const Triangle& t : mesh.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      out[static_cast<std::size_t>(t.vertex[k])].push_back(t.vertex[(k + 1) % 3]);
+    }
+  }
+  for (auto& ring : out) std::sort(ring.begin(), ring.end());
+  return out;
+}
+
+/// A fixed vertex is kept, and its neighbours are the same ones, kept too.
+void check_fixed(const Mesh& before, const Remeshed& after, const std::vector<char>& is_fixed) {
+  const auto old_rings = neighbours(before), new_rings = neighbours(after.mesh);
+  for (std::size_t v = 0; v < is_fixed.size(); ++v) {
+    if (is_fixed[v] == 0) continue;
+    REQUIRE(after.new_id[v] != kNone);
+    std::vector<Index> ring;
+    for (const Index n : old_rings[v]) ring.push_back(after.new_id[static_cast<std::size_t>(n)]);
+    std::sort(ring.begin(), ring.end());
+    REQUIRE(ring == new_rings[static_cast<std::size_t>(after.new_id[v])]);
+  }
+}
+
+std::vector<char> fixed_where(const Mesh& mesh, const Vec3& towards, double cosine) {
+  std::vector<char> is_fixed(mesh.vertices.size());
+  for (std::size_t v = 0; v < is_fixed.size(); ++v) {
+    is_fixed[v] = mesh.vertices[v].position().normalized().dot(towards) > cosine ? 1 : 0;
+  }
+  return is_fixed;
+}
+
 }  // namespace
 
 TEST_CASE("a remesh is as good as a fresh grid and keeps what lies outside bit for bit") {
@@ -77,24 +117,127 @@ TEST_CASE("a remesh is as good as a fresh grid and keeps what lies outside bit f
     TestRun run(2);
     const Mesh before = fresh(run.context, scene.surface, scene.before);
     RemeshReport report;
-    const Remeshed after =
-        remesh(run.context, {scene.surface, scene.after, before, {}}, {}, report);
+    const Remeshed after = remeshed(run.context, scene, before, report);
     CHECK(report.kind == RemeshKind::local);
     CHECK(summary(validate(after.mesh, scene.surface)) == "");
     check_kept(before, after, report);
     CHECK(report.n_kept > before.n_vertices() / 2);
     const Quality quality = measure_quality(run.context, scene.surface, scene.after, after.mesh);
-    MESSAGE(scene.name << " n " << before.n_vertices() << " -> " << after.mesh.n_vertices()
-                       << " kept " << report.n_kept << " regions " << report.n_regions
-                       << " releases " << report.release_rounds << " below "
-                       << report.relax.n_below_target << " amin " << quality.area_length_min.value
-                       << " mean " << quality.area_length_mean << " rel "
-                       << quality.relative_edge_min.value << " std " << quality.relative_edge_std
-                       << " area " << report.changed_area);
     CHECK(quality.euler == 2);
     CHECK(quality.n_non_delaunay == 0);
     CHECK(quality.n_obtuse == 0);
     CHECK(quality.relative_edge_min.value >= 0.65);
     CHECK(quality.dual_ratio_min.value > 0.0);
   }
+}
+
+TEST_CASE("1, 2, 5 and 8 threads remesh to the same bits") {
+  for (const Scene& scene : scenes()) {
+    CAPTURE(scene.name);
+    TestRun one(1);
+    const Mesh before = fresh(one.context, scene.surface, scene.before);
+    RemeshReport report;
+    const Remeshed expected = remeshed(one.context, scene, before, report);
+    for (const int threads : {2, 5, 8}) {
+      CAPTURE(threads);
+      TestRun run(threads);
+      const Remeshed found = remeshed(run.context, scene, before, report);
+      CHECK(digest(found.mesh) == digest(expected.mesh));
+      CHECK(found.new_id == expected.new_id);
+    }
+  }
+}
+
+TEST_CASE("a remesh to the same spacing changes nothing") {
+  const Scene scene = scenes().front();
+  TestRun run(2);
+  const Mesh before = fresh(run.context, scene.surface, scene.before);
+  RemeshReport report;
+  const Remeshed after = remesh(run.context, {scene.surface, scene.before, before, {}}, {}, report);
+  CHECK(report.kind == RemeshKind::nothing);
+  CHECK(digest(after.mesh) == digest(before));
+  check_kept(before, after, report);
+  CHECK(report.n_kept == before.n_vertices());
+}
+
+TEST_CASE("a remesh of everything is a fresh grid") {
+  const Ellipsoid sphere;
+  TestRun run(2);
+  const Scene scene{"uniform", sphere, SpacingField::constant(sphere, 0.06),
+                    SpacingField::constant(sphere, 0.1)};
+  const Mesh before = fresh(run.context, sphere, scene.before);
+  RemeshReport report;
+  const Remeshed after = remeshed(run.context, scene, before, report);
+  CHECK(report.kind == RemeshKind::full);
+  CHECK(digest(after.mesh) == digest(fresh(run.context, sphere, scene.after)));
+  CHECK(
+      std::all_of(after.new_id.begin(), after.new_id.end(), [](Index id) { return id == kNone; }));
+}
+
+TEST_CASE("cells of fixed vertices inside a region stay as they are") {
+  for (const Scene& scene : scenes()) {
+    CAPTURE(scene.name);
+    TestRun run(2);
+    const Mesh before = fresh(run.context, scene.surface, scene.before);
+    RemeshReport report;
+    const Remeshed moved = remeshed(run.context, scene, before, report);
+    // Around a vertex that goes when none is fixed.
+    const auto gone = std::find(moved.new_id.begin(), moved.new_id.end(), kNone);
+    REQUIRE(gone != moved.new_id.end());
+    const Vec3 towards =
+        before.position(static_cast<Index>(gone - moved.new_id.begin())).normalized();
+    const std::vector<char> is_fixed = fixed_where(before, towards, 0.99);
+    const Remeshed after = remeshed(run.context, scene, before, report, is_fixed);
+    CHECK(report.n_held > 0);
+    CHECK(summary(validate(after.mesh, scene.surface)) == "");
+    check_kept(before, after, report);
+    check_fixed(before, after, is_fixed);
+  }
+}
+
+TEST_CASE("a hole of almost the whole surface is filled around a fixed cap") {
+  const Ellipsoid sphere;
+  for (const double h : {0.03, 0.05, 0.085, 0.1}) {
+    CAPTURE(h);
+    TestRun run(2);
+    const Scene scene{"uniform", sphere, SpacingField::constant(sphere, 0.06),
+                      SpacingField::constant(sphere, h)};
+    const Mesh before = fresh(run.context, sphere, scene.before);
+    const std::vector<char> is_fixed = fixed_where(before, Vec3(0, 0.6, 0.8), 0.95);
+    RemeshReport report;
+    const Remeshed after = remeshed(run.context, scene, before, report, is_fixed);
+    CHECK(summary(validate(after.mesh, sphere)) == "");
+    check_kept(before, after, report);
+    check_fixed(before, after, is_fixed);
+    const double wanted = expected_vertices(run.context.exec, sphere, scene.after);
+    if (report.kind == RemeshKind::local) {
+      CHECK(after.mesh.n_vertices() == doctest::Approx(wanted).epsilon(0.15));
+    }
+  }
+}
+
+TEST_CASE("a few vertices of another spacing are no reason to change a mesh") {
+  const Ellipsoid sphere;
+  const SpacingField spacing = SpacingField::constant(sphere, 0.06);
+  TestRun run(1);
+  Mesh before = fresh(run.context, sphere, spacing);
+  before.vertices[17].spacing *= 2.0;
+  RemeshReport report;
+  const Remeshed after = remesh(run.context, {sphere, spacing, before, {}}, {}, report);
+  CHECK(report.n_wanted == 1);
+  CHECK(report.kind == RemeshKind::nothing);
+  CHECK(digest(after.mesh) == digest(before));
+}
+
+TEST_CASE("a request to stop ends a remesh, and the old mesh is as it was") {
+  const Scene scene = scenes().front();
+  TestRun run(2);
+  const Mesh before = fresh(run.context, scene.surface, scene.before);
+  const std::string bits = digest(before);
+  std::atomic<bool> cancel = true;
+  Monitor monitor({}, {}, &cancel);
+  Context context{run.exec, monitor};
+  RemeshReport report;
+  CHECK_THROWS_AS(remeshed(context, scene, before, report), Error);
+  CHECK(digest(before) == bits);
 }
