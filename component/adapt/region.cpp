@@ -27,7 +27,7 @@ void for_each_neighbour(const OldMesh& old, Index vertex, const Visit& visit) {
 }
 
 // How the two spacings compare at a vertex.
-enum Fit : char { kFits, kOffBlend, kOffTolerance };
+enum Fit : char { fits, off_blend, off_tolerance };
 
 std::vector<char> compare_spacings(parallel::Executor& exec, const Mesh& mesh,
                                    const SpacingField& spacing, const RegionOptions& options) {
@@ -42,10 +42,10 @@ std::vector<char> compare_spacings(parallel::Executor& exec, const Mesh& mesh,
         for (std::int64_t v = begin; v < end; ++v) {
           const double before = mesh.vertices[static_cast<std::size_t>(v)].spacing;
           const double after = now[static_cast<std::size_t>(v - begin)].spacing;
-          fit[static_cast<std::size_t>(v)] = is_within(before, after, options.blend) ? kFits
+          fit[static_cast<std::size_t>(v)] = is_within(before, after, options.blend) ? fits
                                              : is_within(before, after, options.tolerance)
-                                                 ? kOffBlend
-                                                 : kOffTolerance;
+                                                 ? off_blend
+                                                 : off_tolerance;
         }
       });
   return fit;
@@ -56,12 +56,12 @@ class Growth {
  public:
   Growth(const OldMesh& old, std::vector<char> is_barred)
       : old_(old), is_in_(std::move(is_barred)) {
-    for (char& mark : is_in_) mark = mark != 0 ? kBarred : kOut;
+    for (char& mark : is_in_) mark = mark != 0 ? never : out_of_it;
   }
 
   void add(Index vertex) {
-    if (is_in_[at(vertex)] != kOut) return;
-    is_in_[at(vertex)] = kIn;
+    if (is_in_[at(vertex)] != out_of_it) return;
+    is_in_[at(vertex)] = inside;
     members_.push_back(vertex);
   }
   // Adds the neighbours of the vertices added since the last call that `accepts` agrees to.
@@ -74,11 +74,11 @@ class Growth {
       });
     }
   }
-  bool has(Index vertex) const { return is_in_[at(vertex)] == kIn; }
+  bool has(Index vertex) const { return is_in_[at(vertex)] == inside; }
   const std::vector<Index>& members() const { return members_; }
 
  private:
-  enum Mark : char { kOut, kIn, kBarred };
+  enum Mark : char { out_of_it, inside, never };
   const OldMesh& old_;
   std::vector<char> is_in_;
   std::vector<Index> members_;  // in the order of their coming
@@ -103,7 +103,7 @@ std::vector<Index> wanted_parts(const OldMesh& old, const std::vector<char>& fit
                                 const std::vector<char>& is_barred, const RegionOptions& options) {
   Growth grown(old, is_barred);
   for (Index v = 0; v < old.mesh.n_vertices(); ++v) {
-    if (fit[at(v)] == kOffTolerance) grown.add(v);
+    if (fit[at(v)] == off_tolerance) grown.add(v);
   }
   for (int ring = 0; ring < options.rings; ++ring) grown.add_ring([](Index) { return true; });
   std::vector<char> is_seen(fit.size(), 0);
@@ -114,7 +114,7 @@ std::vector<Index> wanted_parts(const OldMesh& old, const std::vector<char>& fit
     is_seen[at(seed)] = 1;
     std::int64_t n_wanted = 0;
     for (std::size_t i = 0; i < part.size(); ++i) {
-      if (fit[at(part[i])] == kOffTolerance) ++n_wanted;
+      if (fit[at(part[i])] == off_tolerance) ++n_wanted;
       for_each_neighbour(old, part[i], [&](Index neighbour) {
         if (!grown.has(neighbour) || is_seen[at(neighbour)] != 0) return;
         is_seen[at(neighbour)] = 1;
@@ -135,14 +135,14 @@ Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingFi
   Region out;
   out.change.assign(fit.size(), Change::keep);
   for (std::size_t v = 0; v < fit.size(); ++v) {
-    if (fit[v] != kOffTolerance) continue;
+    if (fit[v] != off_tolerance) continue;
     ++out.n_wanted;
     if (is_barred[v] != 0) ++out.n_held;
   }
   Growth grown(old, is_barred);
   for (const Index v : wanted_parts(old, fit, is_barred, options)) grown.add(v);
   for (int ring = 0; ring < options.blend_rings; ++ring) {
-    grown.add_ring([&](Index v) { return fit[at(v)] != kFits; });
+    grown.add_ring([&](Index v) { return fit[at(v)] != fits; });
   }
   for (const Index v : grown.members()) out.change[at(v)] = Change::remove;
   out.n_removed = static_cast<std::int64_t>(grown.members().size());

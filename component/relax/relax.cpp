@@ -71,8 +71,9 @@ void update_part(const Mesh& mesh, const std::vector<Index>& flipped, RelaxPart&
   part.triangles = std::move(merged);
 }
 
-void relax_springs(Context& context, const Target& target, const RelaxOptions& options,
-                   RelaxPart& part, Mesh& mesh, RelaxReport& report) {
+RelaxReport relax_springs(Context& context, const Target& target, const RelaxOptions& options,
+                          RelaxPart& part, Mesh& mesh) {
+  RelaxReport report;
   std::vector<Index> vertices;
   for (std::size_t v = 0; v < part.is_free.size(); ++v) {
     if (part.is_free[v] != 0) vertices.push_back(static_cast<Index>(v));
@@ -95,6 +96,7 @@ void relax_springs(Context& context, const Target& target, const RelaxOptions& o
     }
     context.monitor.advance(n);
   }
+  return report;
 }
 
 void add(const PolishReport& polished, RelaxReport& report) {
@@ -134,7 +136,7 @@ RelaxReport relax_part(Context& context, const Target& target, const RelaxOption
                        RelaxPart& part, Mesh& mesh) {
   check_options(options);
   RelaxReport report;
-  if (options.spring_rounds > 0) relax_springs(context, target, options, part, mesh, report);
+  if (options.spring_rounds > 0) report = relax_springs(context, target, options, part, mesh);
   if (options.polish_rounds > 0) add(polish(context, target, options, mesh, &part), report);
   return report;
 }
