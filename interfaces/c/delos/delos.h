@@ -43,7 +43,8 @@ DELOS_C_API const char* delos_version(void);
  * that a cap hands them on as they are. */
 typedef enum delos_status {
   DELOS_SUCCESS = 0,
-  DELOS_ERROR_STATE = 42,      /* ESMF_RC_NOT_VALID: a wrong order of calls, a stale handle or one of the wrong kind */
+  DELOS_ERROR_STATE =
+      42, /* ESMF_RC_NOT_VALID: a wrong order of calls, a stale handle or one of the wrong kind */
   DELOS_ERROR_ARGUMENT = 6,    /* ESMF_RC_ARG_BAD: an argument is NULL or out of range */
   DELOS_ERROR_CONFIG = 9,      /* ESMF_RC_ARG_VALUE: a setting is missing, unknown or wrong */
   DELOS_ERROR_INPUT = 21,      /* ESMF_RC_FILE_READ: an input file is missing or unusable */
