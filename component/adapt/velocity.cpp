@@ -86,12 +86,12 @@ EdgeToCell edge_to_cell(parallel::Executor& exec, const Grid& grid) {
   return out;
 }
 
-void vectors_at_cells(parallel::Executor& exec, const Grid& grid, const EdgeToCell& weights,
-                      std::span<const double> normal, std::span<double> east,
-                      std::span<double> north) {
+void vectors_at_cells(parallel::Executor& exec, const Grid& grid, std::span<const double> normal,
+                      std::span<double> east, std::span<double> north) {
   check_size(normal.size(), grid.n_edges(), "edges");
   check_size(east.size(), grid.n_cells(), "cells");
   check_size(north.size(), grid.n_cells(), "cells");
+  const EdgeToCell weights = edge_to_cell(exec, grid);
   parallel::for_index(exec, grid.n_cells(), kGrain, [&](std::int64_t cell) {
     const auto vector =
         vector_of(grid, weights, cell, [&](std::size_t edge) { return normal[edge]; });

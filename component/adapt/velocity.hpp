@@ -22,9 +22,8 @@ struct EdgeToCell {
 EdgeToCell edge_to_cell(parallel::Executor& exec, const Grid& grid);
 
 /// East and north [n_cells] from normal components [n_edges].
-void vectors_at_cells(parallel::Executor& exec, const Grid& grid, const EdgeToCell& weights,
-                      std::span<const double> normal, std::span<double> east,
-                      std::span<double> north);
+void vectors_at_cells(parallel::Executor& exec, const Grid& grid, std::span<const double> normal,
+                      std::span<double> east, std::span<double> north);
 
 /// Components along the edges' normals of the mean of both cells' vectors.
 Array<double> normals_at_edges(parallel::Executor& exec, const Grid& grid,

@@ -135,7 +135,7 @@ Solution::Values Solution::values_of(parallel::Executor& exec, SolutionField fie
   if (field == SolutionField::normal_velocity) {
     DELOS_CHECK(is_in_cells, ErrorKind::input, kNormal, " must be given on the grid's edges");
     for (Array<double>& component : out.own) component.resize(n_cells);
-    vectors_at_cells(exec, grid, edge_to_cell(exec, grid), given[0], out.own[0], out.own[1]);
+    vectors_at_cells(exec, grid, given[0], out.own[0], out.own[1]);
     out.fields = {out.own[0], out.own[1]};
   } else if (field == SolutionField::vorticity_gradient) {
     DELOS_CHECK(is_in_cells, ErrorKind::input,

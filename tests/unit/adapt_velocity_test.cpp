@@ -44,7 +44,7 @@ struct CellVectors {
 CellVectors vectors_of(const Grid& grid, std::span<const double> normal, int threads = 1) {
   parallel::Executor exec(threads);
   CellVectors out{std::vector<double>(at(grid.n_cells())), std::vector<double>(at(grid.n_cells()))};
-  vectors_at_cells(exec, grid, edge_to_cell(exec, grid), normal, out.east, out.north);
+  vectors_at_cells(exec, grid, normal, out.east, out.north);
   return out;
 }
 
