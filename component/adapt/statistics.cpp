@@ -5,9 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include "adapt/east_north.hpp"
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "geometry/east_north.hpp"
 
 namespace delos {
 namespace {

@@ -2,7 +2,6 @@
 #pragma once
 // Velocities on a C-grid: from components along the edges' normals to vectors in the cells and
 // back, and how fast vorticity changes.
-#include <array>
 #include <span>
 
 #include "core/array.hpp"
@@ -11,17 +10,7 @@
 
 namespace delos {
 
-/// How a cell's vector follows from the components along the normals of its edges: the vector of
-/// the cell's tangent plane nearest to them in the least squares with the weights (edge length)
-/// times (distance of the cells). Uniform flow in a plane comes out exactly, whatever the cell's
-/// shape.
-struct EdgeToCell {
-  /// To east and to north, as grid.edges_on_cell.values.
-  Array<std::array<double, 2>> weight;
-};
-EdgeToCell edge_to_cell(parallel::Executor& exec, const Grid& grid);
-
-/// East and north [n_cells] from normal components [n_edges].
+/// East and north [n_cells] of remap::cell_velocities() from normal components [n_edges].
 void vectors_at_cells(parallel::Executor& exec, const Grid& grid, std::span<const double> normal,
                       std::span<double> east, std::span<double> north);
 
@@ -37,6 +26,6 @@ Array<double> relative_vorticity(parallel::Executor& exec, const Grid& grid,
 /// |grad zeta| in the cells, 1/(m s), from normal velocities in m/s: the least-squares vector of
 /// the differences of vorticity along the cell's edges.
 Array<double> vorticity_gradient(parallel::Executor& exec, const Grid& grid,
-                                 const EdgeToCell& weights, std::span<const double> normal);
+                                 std::span<const double> normal);
 
 }  // namespace delos

@@ -7,6 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/error.hpp"
+#include "geometry/tangent_frame.hpp"
 
 namespace delos {
 namespace {
@@ -330,17 +331,13 @@ Vec3 SphereMap::map_jacobi(const Vec3& p) const {
 double SphereMap::stretch(const Vec3& p) const {
   if (method_ == Method::identity) return 1.0;
   constexpr double kStep = 1e-4;  // error: step squared
-  const Vec3 normal = surface_.normal(p);
-  int smallest = 0;
-  normal.cwiseAbs().minCoeff(&smallest);
-  const Vec3 east = normal.cross(Vec3::Unit(smallest)).normalized();
-  const Vec3 north = normal.cross(east);
+  const TangentFrame plane(surface_.normal(p));
   const auto derivative = [&](const Vec3& direction) -> Vec3 {
     const Vec3 ahead = surface_.project(p + kStep * direction);
     const Vec3 behind = surface_.project(p - kStep * direction);
     return ((*this)(ahead) - (*this)(behind)) / (2.0 * kStep);
   };
-  return std::sqrt(derivative(east).cross(derivative(north)).norm());
+  return std::sqrt(derivative(plane.right).cross(derivative(plane.ahead)).norm());
 }
 
 std::vector<Vec3> map_to_sphere(parallel::Executor& exec, const SphereMap& map,

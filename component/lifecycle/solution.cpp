@@ -141,7 +141,7 @@ Solution::Values Solution::values_of(parallel::Executor& exec, SolutionField fie
     DELOS_CHECK(is_in_cells, ErrorKind::input,
                 "the source vorticity_gradient needs velocities in the grid's cells");
     const Array<double> normal = normals_at_edges(exec, grid, given[0], given[1]);
-    out.own[0] = vorticity_gradient(exec, grid, edge_to_cell(exec, grid), normal);
+    out.own[0] = vorticity_gradient(exec, grid, normal);
     out.fields = {out.own[0]};
   } else {
     out.fields = std::move(given);

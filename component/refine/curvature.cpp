@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "geometry/tangent_frame.hpp"
 #include "refine/work_mesh.hpp"
 
 namespace delos {
@@ -38,11 +39,8 @@ Tightest tightest_of_row(const Ellipsoid& surface, const SpacingField& spacing, 
 double least_radius_of_curvature(const Ellipsoid& surface, const Vec3& p) {
   const Vec3& w = surface.inverse_square();
   const Vec3 gradient = p.cwiseProduct(w);
-  const Vec3 normal = gradient.normalized();
-  int flattest = 0;
-  normal.cwiseAbs().minCoeff(&flattest);
-  const Vec3 t = normal.cross(Vec3(Vec3::Unit(flattest))).normalized();
-  const Vec3 s = normal.cross(t);
+  const TangentFrame plane(gradient.normalized());
+  const Vec3 &t = plane.right, &s = plane.ahead;
   const double tt = t.cwiseProduct(w).dot(t), ts = t.cwiseProduct(w).dot(s);
   const double ss = s.cwiseProduct(w).dot(s), half = 0.5 * (tt - ss);
   return gradient.norm() / (0.5 * (tt + ss) + std::sqrt(half * half + ts * ts));

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/elementary.hpp"
+#include "geometry/tangent_frame.hpp"
 
 namespace delos::remap {
 namespace {
@@ -46,10 +47,9 @@ double solid_angle(std::span<const Corner> corners) {
 
 Frame::Frame(const Vec3& origin) : origin_(origin), height_(origin.norm()) {
   up_ = origin / height_;
-  int smallest = 0;
-  up_.cwiseAbs().minCoeff(&smallest);
-  east_ = Vec3(Vec3::Unit(smallest)).cross(up_).normalized();
-  north_ = up_.cross(east_);
+  const TangentFrame plane(up_);
+  east_ = plane.right;
+  north_ = plane.ahead;
 }
 
 bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {

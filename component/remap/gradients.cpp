@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "geometry/tangent_frame.hpp"
+
 namespace delos::remap {
 namespace {
 
@@ -14,27 +16,15 @@ constexpr double kInLine = 1e-6;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-struct Plane {
-  Vec3 east, north;
-};
-
-Plane touching(const Vec3& p) {
-  const Vec3 up = p.normalized();
-  int smallest = 0;
-  up.cwiseAbs().minCoeff(&smallest);
-  const Vec3 east = Vec3(Vec3::Unit(smallest)).cross(up).normalized();
-  return {east, up.cross(east)};
-}
-
 // Normal equations of min sum (g . d_k - (f_k - f_j))^2 in the plane.
 void fit(const Tiling& source, const Overlaps& overlaps, std::int64_t j, std::span<Vec3> row) {
   const auto neighbours = source.neighbours(j);
   const Vec3& here = overlaps.source_middle[at(j)];
-  const Plane plane = touching(here);
+  const TangentFrame plane(here.normalized());
   double xx = 0.0, xy = 0.0, yy = 0.0;
   for (std::size_t k = 0; k < row.size(); ++k) {
     const Vec3 d = overlaps.source_middle[at(neighbours[k])] - here;
-    const double x = d.dot(plane.east), y = d.dot(plane.north);
+    const double x = d.dot(plane.right), y = d.dot(plane.ahead);
     row[k] = Vec3(x, y, 0.0);
     xx += x * x;
     xy += x * y;
@@ -46,7 +36,7 @@ void fit(const Tiling& source, const Overlaps& overlaps, std::int64_t j, std::sp
   for (Vec3& entry : row) {
     const double x = inverse * (yy * entry.x() - xy * entry.y());
     const double y = inverse * (xx * entry.y() - xy * entry.x());
-    entry = x * plane.east + y * plane.north;
+    entry = x * plane.right + y * plane.ahead;
   }
 }
 

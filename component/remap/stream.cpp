@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "geometry/point_order.hpp"
+#include "geometry/tangent_frame.hpp"
 #include "remap/walk.hpp"
 
 namespace delos::remap {
@@ -166,11 +167,7 @@ class Fit {
  private:
   double solve(const Vec3& p, double reference) const {
     using Six = Eigen::Matrix<double, 6, 1>;
-    const Vec3 up = p.normalized();
-    int smallest = 0;
-    up.cwiseAbs().minCoeff(&smallest);
-    const Vec3 east = Vec3(Vec3::Unit(smallest)).cross(up).normalized();
-    const Vec3 north = up.cross(east);
+    const TangentFrame plane(p.normalized());
     double square = 0.0;
     for (const Index id : corners_) square += (cells_.corner(id) - p).squaredNorm();
     square /= static_cast<double>(corners_.size());
@@ -179,7 +176,7 @@ class Fit {
     Six right = Six::Zero();
     for (const Index id : corners_) {
       const Vec3 d = cells_.corner(id) - p;
-      const double x = scale * d.dot(east), y = scale * d.dot(north);
+      const double x = scale * d.dot(plane.right), y = scale * d.dot(plane.ahead);
       const double weight = 1.0 / (0.1 + (x * x + y * y));
       Six row;
       row << 1.0, x, y, x * x, x * y, y * y;

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "remap/vectors.hpp"
 
+#include "core/elementary.hpp"
+#include "geometry/east_north.hpp"
+#include "geometry/tangent_frame.hpp"
+
 namespace delos::remap {
 namespace {
 
@@ -12,15 +16,11 @@ constexpr double kOneWay = 1e-9;
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vec3 fit_cell(const Grid& grid, std::int64_t cell, std::span<const double> normal) {
-  const Vec3 up = grid.surface.normal(grid.cell_position[at(cell)]);
-  int smallest = 0;
-  up.cwiseAbs().minCoeff(&smallest);
-  const Vec3 east = Vec3(Vec3::Unit(smallest)).cross(up).normalized();
-  const Vec3 north = up.cross(east);
+  const TangentFrame plane(grid.surface.normal(grid.cell_position[at(cell)]));
   double xx = 0.0, xy = 0.0, yy = 0.0, bx = 0.0, by = 0.0;
   for (const Index edge : grid.edges_on_cell.row(cell)) {
     const Vec3 direction = edge_normal(grid, edge);
-    const double x = direction.dot(east), y = direction.dot(north);
+    const double x = direction.dot(plane.right), y = direction.dot(plane.ahead);
     const double weight = grid.cell_distance_m[at(edge)] * grid.vertex_distance_m[at(edge)];
     xx += weight * x * x;
     xy += weight * x * y;
@@ -30,23 +30,15 @@ Vec3 fit_cell(const Grid& grid, std::int64_t cell, std::span<const double> norma
   }
   const double det = xx * yy - xy * xy;
   if (!(det > kOneWay * (xx + yy) * (xx + yy))) return Vec3::Zero();
-  return ((yy * bx - xy * by) * east + (xx * by - xy * bx) * north) / det;
+  return ((yy * bx - xy * by) * plane.right + (xx * by - xy * bx) * plane.ahead) / det;
 }
 
 }  // namespace
 
 Vec3 edge_normal(const Grid& grid, std::int64_t edge) {
-  const auto [c, d] = grid.cells_on_edge[at(edge)];
-  const auto [v, w] = grid.vertices_on_edge[at(edge)];
-  const Vec3 up = grid.surface.normal(grid.edge_position[at(edge)]);
-  const Vec3 along = grid.cell_position[at(d)] - grid.cell_position[at(c)];
-  const Vec3 flat = along - up * up.dot(along);
-  if (grid.surface.is_sphere()) return flat.normalized();
-  // On an ellipsoid the normal is that of the dual edge, where it has a direction.
-  constexpr double kDegenerateDual = 1e-12;
-  const Vec3 across = grid.vertex_position[at(w)] - grid.vertex_position[at(v)];
-  if (across.squaredNorm() <= kDegenerateDual * along.squaredNorm()) return flat.normalized();
-  return across.cross(up).normalized();
+  const EastNorth local(grid.surface.normal(grid.edge_position[at(edge)]));
+  const elementary::SinCos angle = elementary::sincos(grid.edge_angle_rad[at(edge)]);
+  return angle.cos * local.east + angle.sin * local.north;
 }
 
 Array<Vec3> cell_velocities(parallel::Executor& exec, const Grid& grid,

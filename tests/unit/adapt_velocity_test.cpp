@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapt/east_north.hpp"
+#include "geometry/east_north.hpp"
 #include "support/expect_error.hpp"
 #include "support/sample_grids.hpp"
 
@@ -80,8 +80,7 @@ Grid shaken_grid() {
 /// equator).
 double gradient_error(const Grid& grid) {
   parallel::Executor exec(1);
-  const auto gradient =
-      vorticity_gradient(exec, grid, edge_to_cell(exec, grid), rotation_normals(grid));
+  const auto gradient = vorticity_gradient(exec, grid, rotation_normals(grid));
   std::vector<double> errors;
   for (std::size_t cell = 0; cell < at(grid.n_cells()); ++cell) {
     const double exact = 2.0 * kOmega.cross(grid.cell_position[cell]).norm() / kRadius_m;
@@ -102,23 +101,23 @@ TEST_CASE("cell vectors of a solid rotation converge, poles and all") {
 }
 
 TEST_CASE("uniform flow comes out exactly where the surface is all but flat") {
-  // One cell's edges seen from so near that they lie in its plane: weights times normals are 1.
+  // One cell's edges seen from so near that they lie in its plane: the flows to its east and to its
+  // north, on its edges alone.
   const Grid grid = sphere_grid(3);
-  parallel::Executor exec(1);
-  const EdgeToCell weights = edge_to_cell(exec, grid);
   for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
     const EastNorth local(grid.surface.normal(grid.cell_position[at(cell)]));
-    const auto begin = at(grid.edges_on_cell.offsets.begin_of(cell));
-    const auto edges = grid.edges_on_cell.row(cell);
-    double ee = 0.0, en = 0.0, nn = 0.0;
-    for (std::size_t j = 0; j < edges.size(); ++j) {
-      const EastNorth axes(grid.surface.normal(grid.edge_position[at(edges[j])]));
-      const double angle = grid.edge_angle_rad[at(edges[j])];
+    std::vector<double> eastward(at(grid.n_edges()), 0.0), northward = eastward;
+    for (const Index edge : grid.edges_on_cell.row(cell)) {
+      const EastNorth axes(grid.surface.normal(grid.edge_position[at(edge)]));
+      const double angle = grid.edge_angle_rad[at(edge)];
       const Vec3 normal = std::cos(angle) * axes.east + std::sin(angle) * axes.north;
-      ee += weights.weight[begin + j][0] * normal.dot(local.east);
-      en += weights.weight[begin + j][0] * normal.dot(local.north);
-      nn += weights.weight[begin + j][1] * normal.dot(local.north);
+      eastward[at(edge)] = normal.dot(local.east);
+      northward[at(edge)] = normal.dot(local.north);
     }
+    const CellVectors from_east = vectors_of(grid, eastward),
+                      from_north = vectors_of(grid, northward);
+    const double ee = from_east.east[at(cell)], en = from_north.east[at(cell)];
+    const double nn = from_north.north[at(cell)];
     CHECK(ee == doctest::Approx(1.0).epsilon(1e-12));
     CHECK(std::abs(en) < 1e-12);
     CHECK(nn == doctest::Approx(1.0).epsilon(1e-12));
@@ -167,13 +166,13 @@ TEST_CASE("any number of threads gives the same vectors and gradients") {
   const auto normal = rotation_normals(grid);
   parallel::Executor one(1);
   const CellVectors expected = vectors_of(grid, normal);
-  const auto gradient = vorticity_gradient(one, grid, edge_to_cell(one, grid), normal);
+  const auto gradient = vorticity_gradient(one, grid, normal);
   for (const int threads : {2, 5, 8}) {
     parallel::Executor exec(threads);
     const CellVectors vectors = vectors_of(grid, normal, threads);
     CHECK(vectors.east == expected.east);
     CHECK(vectors.north == expected.north);
-    CHECK(vorticity_gradient(exec, grid, edge_to_cell(exec, grid), normal) == gradient);
+    CHECK(vorticity_gradient(exec, grid, normal) == gradient);
     CHECK(normals_at_edges(exec, grid, vectors.east, vectors.north) ==
           normals_at_edges(one, grid, expected.east, expected.north));
   }
