@@ -64,7 +64,8 @@ Solution moved(Context& context, const Solution& solution, const Product& old,
                const Product& product) {
   const Phase phase(context.monitor, "transfer", product.grid->n_cells());
   const remap::Transfer transfer(context, remap::Tiling::cells(context.exec, *old.grid),
-                                 remap::Tiling::cells(context.exec, *product.grid));
+                                 remap::Tiling::cells(context.exec, *product.grid),
+                                 remap::Order::first);
   const remap::TransferOptions options{remap::Order::first, remap::Limiter::none};
   Solution out = solution;
   out.move(context.exec, *old.grid, *product.grid,

@@ -153,12 +153,25 @@ void second_order_row(const Rows& rows, const GradientStencils& stencils, std::i
 
 }  // namespace
 
-Transfer::Transfer(Context& context, const Tiling& source, const Tiling& target)
-    : overlaps_(intersect(context, source, target)),
-      by_source_(transpose(overlaps_)),
-      stencils_(gradient_stencils(context.exec, source, overlaps_)) {}
+Transfer::Transfer(Context& context, const Tiling& source, const Tiling& target, Order highest)
+    : overlaps_(intersect(context, source, target)) {
+  if (highest == Order::second) add_second_order(context.exec, source);
+}
+
+void Transfer::add_second_order(parallel::Executor& exec, const Tiling& source) {
+  if (!stencils_.offsets.empty()) return;
+  by_source_ = transpose(overlaps_);
+  stencils_ = gradient_stencils(exec, source, overlaps_);
+}
+
+void Transfer::require(Order order) const {
+  DELOS_CHECK(order == Order::first || !stencils_.offsets.empty(), ErrorKind::state,
+              "a transfer made for the first order was asked for the second: make it for the "
+              "second order, or add_second_order() first.");
+}
 
 Weights Transfer::weights(parallel::Executor& exec, Order order) const {
+  require(order);
   if (order == Order::first) return first_order_weights(exec, overlaps_);
   const Rows rows{overlaps_};
   const std::int64_t n = overlaps_.n_targets;
@@ -191,11 +204,28 @@ Weights Transfer::weights(parallel::Executor& exec, Order order) const {
 
 void Transfer::apply(parallel::Executor& exec, std::span<const double> source,
                      std::span<double> target, const TransferOptions& options) const {
-  DELOS_CHECK(static_cast<std::int64_t>(source.size()) == overlaps_.n_sources &&
-                  static_cast<std::int64_t>(target.size()) == overlaps_.n_targets,
+  const std::int64_t n_levels = options.n_levels;
+  DELOS_CHECK(n_levels >= 1, ErrorKind::input, "n_levels = ", n_levels,
+              ": a polygon has at least one value.");
+  DELOS_CHECK(static_cast<std::int64_t>(source.size()) == n_levels * overlaps_.n_sources &&
+                  static_cast<std::int64_t>(target.size()) == n_levels * overlaps_.n_targets,
               ErrorKind::input, "a transfer from ", overlaps_.n_sources, " to ",
-              overlaps_.n_targets, " values was given fields of ", source.size(), " and ",
-              target.size(), " values: the fields belong to other grids.");
+              overlaps_.n_targets, " polygons of ", n_levels, " values was given fields of ",
+              source.size(), " and ", target.size(), " values: the fields belong to other grids.");
+  require(options.order);
+  if (n_levels == 1) return apply_level(exec, source, target, options);
+  Array<double> from(at(overlaps_.n_sources)), to(at(overlaps_.n_targets));
+  for (std::int64_t level = 0; level < n_levels; ++level) {
+    parallel::for_index(exec, overlaps_.n_sources, kGrain,
+                        [&](std::int64_t j) { from[at(j)] = source[at(j * n_levels + level)]; });
+    apply_level(exec, from, to, options);
+    parallel::for_index(exec, overlaps_.n_targets, kGrain,
+                        [&](std::int64_t i) { target[at(i * n_levels + level)] = to[at(i)]; });
+  }
+}
+
+void Transfer::apply_level(parallel::Executor& exec, std::span<const double> source,
+                           std::span<double> target, const TransferOptions& options) const {
   const Rows rows{overlaps_};
   const bool is_first = options.order == Order::first;
   const bool is_limited = options.limiter != Limiter::none && !is_first;

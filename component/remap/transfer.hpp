@@ -29,26 +29,36 @@ enum class Limiter {
 struct TransferOptions {
   Order order = Order::second;
   Limiter limiter = Limiter::gradient;
+  std::int64_t n_levels = 1;  ///< values of a polygon, which stand together: [n, n_levels]
 };
 
 /// Everything that carries fields from one grid to another, computed once for many fields; needs
 /// the grids no longer.
 class Transfer {
  public:
-  /// Advances the phase that the caller has begun by one for each target. Errors as intersect().
-  Transfer(Context& context, const Tiling& source, const Tiling& target);
+  /// What the highest order needs is made at once: the second needs gradients' stencils, a quarter
+  /// of the time. Advances the phase that the caller has begun by one for each target. Errors as
+  /// intersect().
+  Transfer(Context& context, const Tiling& source, const Tiling& target,
+           Order highest = Order::second);
 
   const Overlaps& overlaps() const { return overlaps_; }
-  /// Linear transfer as a matrix; that of the second order reaches to the neighbours.
+  /// Makes what the second order needs, unless it is there; `source` is the constructor's.
+  void add_second_order(parallel::Executor& exec, const Tiling& source);
+  /// Linear transfer as a matrix; that of the second order reaches to the neighbours. Error(state)
+  /// when the transfer was made for the first order only.
   Weights weights(parallel::Executor& exec, Order order) const;
   /// Mass kept within 1e-14, a constant and unchanged polygons to the last bit; with a limiter, and
   /// to first order, no value outside the range of the sources that a target covers and, to second
-  /// order, of their neighbours. Values must be finite. The same bits for any number of threads.
-  /// Error(input) when a size does not fit.
+  /// order, of their neighbours; each level by itself. Values must be finite. The same bits for any
+  /// number of threads. Error(input) when a size does not fit, Error(state) as weights().
   void apply(parallel::Executor& exec, std::span<const double> source, std::span<double> target,
              const TransferOptions& options = {}) const;
 
  private:
+  void require(Order order) const;
+  void apply_level(parallel::Executor& exec, std::span<const double> source,
+                   std::span<double> target, const TransferOptions& options) const;
   Array<Vec3> limited_gradients(parallel::Executor& exec, std::span<const double> source,
                                 const TransferOptions& options) const;
 

@@ -19,6 +19,16 @@ void empty(delos_state& state) {
   state.state.reset();
 }
 
+int hand_out(delos_component* component, const char* function, std::string delos_component::*kept,
+             std::string (delos::Component::*say)() const, const char** text) {
+  if (text != nullptr) *text = nullptr;
+  return call(component, function, [&] {
+    need(text, "text");
+    component->*kept = (*component->component.*say)();
+    *text = (component->*kept).c_str();
+  });
+}
+
 int hand_out(delos_component* component, const char* function, delos_state delos_component::*which,
              delos_state** state) {
   if (state != nullptr) *state = nullptr;
@@ -45,7 +55,7 @@ int delos_component_destroy(delos_component* component) {
   if (component == nullptr) return DELOS_SUCCESS;
   return call(component, __func__, [&] {
     component->component.reset();
-    component->time = std::string();
+    component->time = component->decision = component->failure = std::string();
     empty(component->imports);
     empty(component->exports);
     component->context.components.retire(component);
@@ -121,6 +131,16 @@ int delos_component_current_time(delos_component* component, const char** text) 
     component->time = time ? time->text() : "";
     *text = component->time.c_str();
   });
+}
+
+int delos_component_remesh_decision(delos_component* component, const char** text) {
+  return hand_out(component, __func__, &delos_component::decision,
+                  &delos::Component::remesh_decision, text);
+}
+
+int delos_component_remesh_failure(delos_component* component, const char** text) {
+  return hand_out(component, __func__, &delos_component::failure, &delos::Component::remesh_failure,
+                  text);
 }
 
 int delos_component_grid(delos_component* component, delos_grid** grid) {

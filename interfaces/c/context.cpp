@@ -20,6 +20,8 @@ const char* kind_name(std::uint64_t magic) {
       return "a field";
     case kClockMagic:
       return "a clock";
+    case kTransferMagic:
+      return "a transfer";
     case kDeadMagic:
       return "destroyed";
     default:

@@ -46,6 +46,15 @@ int delos_grid_destroy(delos_grid* grid) {
   });
 }
 
+int delos_grid_share(delos_context* context, const delos_grid* grid, delos_grid** shared) {
+  if (shared != nullptr) *shared = nullptr;
+  return call(context, __func__, [&] {
+    need_handle(grid, "grid");
+    need(shared, "shared");
+    *shared = context->grids.keep(std::make_unique<delos_grid>(*context, *grid->grid));
+  });
+}
+
 // NOLINTBEGIN(bugprone-macro-parentheses): a type can't stand in them
 #define DELOS_NUMBER(name, type)                               \
   int delos_grid_##name(const delos_grid* grid, type* value) { \

@@ -28,6 +28,7 @@ constexpr std::uint64_t kComponentMagic = 0x64656c6f732e636d;
 constexpr std::uint64_t kStateMagic = 0x64656c6f732e7374;
 constexpr std::uint64_t kFieldMagic = 0x64656c6f732e6664;
 constexpr std::uint64_t kClockMagic = 0x64656c6f732e636c;
+constexpr std::uint64_t kTransferMagic = 0x64656c6f732e7472;
 constexpr std::uint64_t kDeadMagic = 0x64656c6f732e7878;
 
 /// The first part of every handle, so that one function reads the text of all.
@@ -184,7 +185,16 @@ struct delos_component : delos::c::Handle {
   std::optional<delos::Component> component;
   delos_state imports, exports;
   delos_grid* grid = nullptr;  // of the current generation, once it was asked for
-  std::string time;
+  std::string time, decision, failure;
+};
+
+struct delos_transfer : delos::c::Handle {
+  static constexpr std::uint64_t kMagic = delos::c::kTransferMagic;
+  static constexpr const char* kName = "transfer";
+  delos_transfer(delos_context& owner, delos::Transfer made)
+      : Handle(kMagic), context(owner), transfer(std::move(made)) {}
+  delos_context& context;
+  std::optional<delos::Transfer> transfer;
 };
 
 struct delos_clock : delos::c::Handle {
@@ -211,6 +221,7 @@ struct delos_context : delos::c::Handle {
   delos::c::Handles<delos_grid> grids;
   delos::c::Handles<delos_component> components;
   delos::c::Handles<delos_clock> clocks;
+  delos::c::Handles<delos_transfer> transfers;
 };
 // NOLINTEND(readability-identifier-naming)
 

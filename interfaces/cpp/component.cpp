@@ -64,7 +64,7 @@ struct Component::Impl {
                                         .cancel = options.cancel}) {}
   GenerateOptions options;  // the callbacks refer to it
   delos::Component component;
-  std::optional<Grid> grid;  // made when it is asked for
+  std::optional<Grid> grid;  // made when it is asked for, of one generation
 };
 
 Component::Component(const Config& config, const GenerateOptions& options)
@@ -126,7 +126,7 @@ State Component::export_state() const { return StateAccess::make(impl_->componen
 Grid Component::grid() const {
   return translated([&] {
     auto product = impl_->component.product();
-    if (!impl_->grid) {
+    if (!impl_->grid || impl_->grid->generation() != impl_->component.generation()) {
       impl_->grid = GridAccess::make(std::move(product), impl_->component.generation());
     }
     return *impl_->grid;
@@ -140,5 +140,12 @@ std::optional<Time> Component::current_time() const {
   if (!clock) return std::nullopt;
   return TimeAccess::made(clock->current());
 }
+
+std::string Component::remesh_decision() const {
+  const auto& decision = impl_->component.decision();
+  return decision ? decision->text : "";
+}
+
+std::string Component::remesh_failure() const { return impl_->component.remesh_failure(); }
 
 }  // namespace delos::api

@@ -11,6 +11,7 @@
 !   area_m2 => grid%cell_area_m2()
 !
 ! A coupled model takes delos_component, delos_clock, delos_state and delos_field: delos_components.F90.
+! delos_transfer carries its fields to a new grid: delos_transfers.F90.
 !
 ! ierr is optional everywhere: 0 or one of the statuses below. message() is the text of the last
 ! failure. A pointer function that fails returns null(), a count 0, a text "". Nothing is printed
@@ -26,6 +27,9 @@ module delos
   use delos_components, only: delos_clock, delos_component, delos_state, delos_field, &
     DELOS_LOCATION_CELL, DELOS_LOCATION_EDGE, DELOS_LOCATION_VERTEX, DELOS_LOCATION_LAT_LON, &
     DELOS_LOCATION_GRID
+  use delos_transfers, only: delos_transfer, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, &
+    DELOS_LIMITER_GRADIENT, DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, DELOS_VELOCITY_VECTORS, &
+    DELOS_VELOCITY_STREAM_FUNCTION
   implicit none
   public
 end module delos

@@ -94,6 +94,13 @@ module delos_component_binding
       integer(c_int) :: status
     end function
 
+    function c_grid_share(context, grid, shared) bind(c, name="delos_grid_share") result(status)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: context, grid
+      type(c_ptr), intent(out) :: shared
+      integer(c_int) :: status
+    end function
+
     function c_component_create(context, config, component) &
       bind(c, name="delos_component_create") result(status)
       import :: c_ptr, c_int
@@ -188,6 +195,9 @@ module delos_component_binding
   procedure(restart_call), bind(c, name="delos_component_read_restart") :: c_read_restart
   procedure(count_getter), bind(c, name="delos_component_generation") :: c_component_generation
   procedure(text_getter), bind(c, name="delos_component_current_time") :: c_current_time
+  procedure(text_getter), bind(c, name="delos_component_remesh_decision") :: c_remesh_decision
+  procedure(text_getter), bind(c, name="delos_component_remesh_failure") :: c_remesh_failure
+  procedure(handle_call), bind(c, name="delos_grid_destroy") :: c_grid_destroy
   procedure(handle_getter), bind(c, name="delos_component_grid") :: c_component_grid
   procedure(handle_getter), bind(c, name="delos_component_import_state") :: c_import_state
   procedure(handle_getter), bind(c, name="delos_component_export_state") :: c_export_state

@@ -92,6 +92,8 @@ module delos_components
     procedure :: read_restart => component_read_restart
     procedure :: generation => component_generation
     procedure :: current_time => component_current_time
+    procedure :: remesh_decision
+    procedure :: remesh_failure
     procedure :: get_grid
     procedure :: import_state => component_import_state
     procedure :: export_state => component_export_state
@@ -472,13 +474,38 @@ contains
     text = text_of(self%handle, c_current_time, ierr)
   end function
 
-  ! The component's own grid, good until the component is destroyed.
+  ! Why the last alarm of section remesh made a new grid, or none; "" before the first.
+  function remesh_decision(self, ierr) result(text)
+    class(delos_component), intent(in) :: self
+    integer, intent(out), optional :: ierr
+    character(len=:), allocatable :: text
+    text = text_of(self%handle, c_remesh_decision, ierr)
+  end function
+
+  ! Why the remesh that it decided on failed, and the grid stayed; "" when it did not.
+  function remesh_failure(self, ierr) result(text)
+    class(delos_component), intent(in) :: self
+    integer, intent(out), optional :: ierr
+    character(len=:), allocatable :: text
+    text = text_of(self%handle, c_remesh_failure, ierr)
+  end function
+
+  ! The current grid. It shares the component's arrays and keeps them when the component goes on or
+  ! ends: `before` and `after` a remesh are two objects.
   subroutine get_grid(self, grid, ierr)
     class(delos_component), intent(in) :: self
     type(delos_grid), intent(inout) :: grid
     integer, intent(out), optional :: ierr
-    call grid%destroy()
-    call report_status(c_component_grid(self%handle, grid%handle), ierr)
+    type(c_ptr) :: own
+    integer(c_int) :: status, unused
+    status = renewed(grid)
+    if (status == DELOS_SUCCESS) status = c_component_grid(self%handle, own)
+    if (status == DELOS_SUCCESS) then
+      status = c_grid_share(grid%context, own, grid%handle)
+      ! Else the component's context would keep the handles of all generations.
+      unused = c_grid_destroy(own)
+    end if
+    call report_status(status, ierr)
   end subroutine
 
   function component_import_state(self, ierr) result(state)

@@ -117,6 +117,12 @@ DELOS_C_API int delos_component_read_restart(delos_component* component, const c
 DELOS_C_API int delos_component_generation(const delos_component* component, int64_t* generation);
 /* Where the last run ended; "" before the first. Valid until the next call of this function. */
 DELOS_C_API int delos_component_current_time(delos_component* component, const char** text);
+/* Why the last alarm of section `remesh` made a new grid, or none: one line, with the numbers; ""
+ * before the first. Why the remesh that it decided on failed, and the grid stayed; "" when it did
+ * not. Valid until the next call of the same function. delos/transfer.h carries the host's fields
+ * to a new grid. */
+DELOS_C_API int delos_component_remesh_decision(delos_component* component, const char** text);
+DELOS_C_API int delos_component_remesh_failure(delos_component* component, const char** text);
 /* The same handle as long as the generation is the same. It shares the component's arrays and keeps
  * them when the component goes on or ends: destroy it when it is not used any more. */
 DELOS_C_API int delos_component_grid(delos_component* component, delos_grid** grid);

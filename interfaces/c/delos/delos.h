@@ -2,7 +2,8 @@
 #ifndef DELOS_DELOS_H
 #define DELOS_DELOS_H
 /* delos for C99 and everything that speaks C: configuration -> grid arrays, in memory. What a
- * coupled model needs beside, delos/component.h, is included at the end.
+ * coupled model needs beside, delos/component.h, and what carries its fields to a new grid,
+ * delos/transfer.h, are included at the end.
  *
  *   delos_context* context;  delos_config* config;  delos_grid* grid;  const double* area_m2;
  *   delos_context_create(&context);
@@ -95,7 +96,8 @@ DELOS_C_API int delos_context_set_progress(delos_context* context, delos_progres
                                            void* user_data);
 DELOS_C_API int delos_context_set_log(delos_context* context, delos_log_callback callback,
                                       void* user_data);
-/* Stops what makes a grid (delos_generate, delos_component_realize and _read_restart), the call
+/* Stops what makes a grid (delos_generate, delos_component_realize and _read_restart) or a transfer
+ * (delos_transfer_create), the call
  * that runs or the next one, with DELOS_ERROR_CANCELLED soon after. May be called from callbacks,
  * other threads and signal handlers. Used up when that call ends. */
 DELOS_C_API int delos_context_cancel(delos_context* context);
@@ -129,6 +131,10 @@ DELOS_C_API int delos_generate(delos_context* context, const delos_config* confi
                                delos_grid** grid);
 /* Frees it, and its arrays and strings, but for a small shell. NULL is allowed. */
 DELOS_C_API int delos_grid_destroy(delos_grid* grid);
+/* Another handle, of `context`, of the same grid, which may be another context's: arrays are
+ * shared, and live as long as one of the handles. */
+DELOS_C_API int delos_grid_share(delos_context* context, const delos_grid* grid,
+                                 delos_grid** shared);
 
 /* Cells are Voronoi polygons, vertices their corners (one for each triangle), edges lie between
  * two cells. Ids are 32-bit with base 0, counts are 64-bit. Lists around a cell or a vertex run
@@ -288,4 +294,5 @@ DELOS_C_API int delos_grid_write_outputs(delos_grid* grid, const char* directory
 #endif
 
 #include <delos/component.h>
+#include <delos/transfer.h>
 #endif

@@ -86,6 +86,13 @@ class DELOS_API Component {
   /// Where the last run ended; nothing before the first.
   std::optional<Time> current_time() const;
 
+  /// Why the last alarm of section `remesh` made a new grid, or none: one line, with the numbers;
+  /// empty before the first. delos/transfer.hpp carries the host's fields to a new grid.
+  std::string remesh_decision() const;
+  /// Why the remesh that the last alarm decided on failed, and the grid stayed; empty when it did
+  /// not.
+  std::string remesh_failure() const;
+
  private:
   struct Impl;
   std::unique_ptr<Impl> impl_;

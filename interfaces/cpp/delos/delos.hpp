@@ -15,4 +15,5 @@
 #include "delos/partition.hpp"  // IWYU pragma: export
 #include "delos/state.hpp"      // IWYU pragma: export
 #include "delos/time.hpp"       // IWYU pragma: export
+#include "delos/transfer.hpp"   // IWYU pragma: export
 #include "delos/version.hpp"    // IWYU pragma: export

@@ -1,0 +1,83 @@
+/* SPDX-License-Identifier: BSD-3-Clause */
+#ifndef DELOS_TRANSFER_H
+#define DELOS_TRANSFER_H
+/* Fields of one grid on another: a model's state after its component has made a new grid; part of
+ * delos/delos.h.
+ *
+ *   delos_component_grid(component, &before);
+ *   delos_component_run(component, imports, exports, clock);
+ *   delos_component_grid(component, &after);
+ *   if (after != before) {                                   (a handle for each generation)
+ *     delos_transfer_create(context, before, after, &transfer);
+ *     delos_transfer_apply(transfer, old_depth, n_before, depth, n_after, NULL);
+ *     delos_transfer_destroy(transfer);
+ *     delos_grid_destroy(before);
+ *   }
+ */
+#include <delos/delos.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct delos_transfer delos_transfer; /* from one grid to another, for many fields */
+
+enum {
+  DELOS_ORDER_SECOND = 0, /* linear in each cell */
+  DELOS_ORDER_FIRST = 1   /* constant in each cell */
+};
+/* To second order; values of the first leave no range. */
+enum {
+  DELOS_LIMITER_GRADIENT = 0, /* gradients are shortened: local, no new extremes */
+  DELOS_LIMITER_NONE = 1,     /* none */
+  DELOS_LIMITER_ASSURED_SUM =
+      2 /* values are clipped, others take it: keeps the order at extremes */
+};
+enum {
+  DELOS_VELOCITY_VECTORS = 0, /* by Cartesian vectors at the cells */
+  /* The part without divergence by its stream function, so that it gets none; the rest as vectors.
+   * Takes sqrt(n_cells) rounds of a solver for a flow with divergence. */
+  DELOS_VELOCITY_STREAM_FUNCTION = 1
+};
+
+/* All 0 is the default, and so is NULL. */
+typedef struct delos_transfer_options {
+  int32_t order;    /* DELOS_ORDER_... */
+  int32_t limiter;  /* DELOS_LIMITER_... */
+  int32_t velocity; /* DELOS_VELOCITY_..., of delos_transfer_apply_velocity */
+  int64_t n_levels; /* values of a cell or an edge, which stand together; 0 = 1 */
+} delos_transfer_options;
+
+/* With the context's threads as they are now; its progress and delos_context_cancel serve this
+ * call. The grids may be other contexts', and may be destroyed afterwards: the transfer keeps their
+ * arrays. DELOS_ERROR_INPUT when they lie on different surfaces. */
+DELOS_C_API int delos_transfer_create(delos_context* context, const delos_grid* from,
+                                      const delos_grid* to, delos_transfer** transfer);
+/* Frees it but for a small shell. NULL is allowed. */
+DELOS_C_API int delos_transfer_destroy(delos_transfer* transfer);
+/* DELOS_ERROR_STATE, naming the generations, unless it was made for these two grids. */
+DELOS_C_API int delos_transfer_check(const delos_transfer* transfer, const delos_grid* from,
+                                     const delos_grid* to);
+/* Means over cells, [n_cells, n_levels] of each grid: n_values = n_cells * n_levels. The sum of
+ * value times area is kept within 1e-14, a constant and cells that did not change to the last bit;
+ * with a limiter, or to first order, no value leaves the range of the cells below it and (second
+ * order) of their neighbours. Values must be finite. The same bits for any number of threads.
+ * DELOS_ERROR_INPUT when a size does not fit. */
+DELOS_C_API int delos_transfer_apply(const delos_transfer* transfer, const double* from,
+                                     int64_t n_from_values, double* to, int64_t n_to_values,
+                                     const delos_transfer_options* options);
+/* Velocities along the edges' normals, [n_edges, n_levels] of each grid. Edges between cells that
+ * did not change keep theirs to the last bit, with the sign of the normal. */
+DELOS_C_API int delos_transfer_apply_velocity(const delos_transfer* transfer, const double* from,
+                                              int64_t n_from_values, double* to,
+                                              int64_t n_to_values,
+                                              const delos_transfer_options* options);
+/* Pairs of cells that overlap. */
+DELOS_C_API int delos_transfer_n_overlaps(const delos_transfer* transfer, int64_t* n);
+/* Cells of the second grid that are cells of the first. */
+DELOS_C_API int delos_transfer_n_unchanged(const delos_transfer* transfer, int64_t* n);
+
+#ifdef __cplusplus
+}
+#endif
+#endif
