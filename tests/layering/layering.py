@@ -22,23 +22,24 @@ BELOW = {
     "relax": ["sizing", "triangulation", "geometry", "core"],
     "dual": ["triangulation", "geometry", "core"],
     "partition": ["dual", "triangulation", "geometry", "core"],
+    "domain": ["partition", "dual", "sizing", "triangulation", "geometry", "core"],
     "metrics": ["dual", "sizing", "triangulation", "geometry", "core"],
     "remap": ["dual", "triangulation", "geometry", "core"],
     "adapt": ["remap", "dual", "relax", "refine", "sizing", "triangulation", "geometry", "time", "core"],
     "io": ["dual", "sizing", "triangulation", "geometry", "core"],
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
-    "lifecycle": ["adapt", "remap", "io", "metrics", "partition", "dual", "relax", "refine", "sizing",
+    "lifecycle": ["adapt", "remap", "io", "metrics", "domain", "partition", "dual", "relax", "refine", "sizing",
                   "triangulation", "geometry", "time", "core"],
     "app": ["lifecycle", "pictures", "remap", "io", "metrics", "dual", "relax", "refine", "sizing",
             "triangulation", "geometry", "time", "core"],
 }
 # What adapters may name: the phase functions and what these hand over.
-INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "partition", "dual", "sizing",
+INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "domain", "partition", "dual", "sizing",
                           "triangulation", "geometry", "time", "core"]
 # Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
 NO_LAYERS = ["cmake", "performance"]
 # Layers whose code is on the path from configuration to grid: no libm there.
-GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "dual", "remap", "adapt"]
+GRID_PATH = ["core", "geometry", "triangulation", "sizing", "refine", "relax", "dual", "domain", "remap", "adapt"]
 
 # Each third party's name, and the only files that may say it.
 HOMES = [
