@@ -2,6 +2,7 @@
 #include "app/arguments.hpp"
 
 #include <CLI/CLI.hpp>
+#include <map>
 
 #include "app/exit_status.hpp"
 #include "lifecycle/version.hpp"
@@ -59,6 +60,29 @@ void add_convert(CLI::App& app, Arguments& out) {
   convert->callback([&out] { out.command = Command::convert; });
 }
 
+void add_partition(CLI::App& app, Arguments& out) {
+  CLI::App* const partition =
+      app.add_subcommand("partition", "cut a grid into parts for the processes of a model");
+  partition->add_option("GRID", out.file, "a grid file of any kind")->required();
+  constexpr std::int64_t kMostParts = 100'000'000;
+  partition
+      ->add_option("N", out.partitions.n_parts,
+                   "numbers of parts; each becomes NAME.graph.info.part.N")
+      ->required()
+      ->check(CLI::Range(std::int64_t{2}, kMostParts));
+  const std::map<std::string, PartitionMethod> methods{{"automatic", PartitionMethod::automatic},
+                                                       {"kway", PartitionMethod::kway},
+                                                       {"curve", PartitionMethod::curve}};
+  partition
+      ->add_option("--method", out.partitions.method,
+                   "kway (METIS: short borders), curve (pieces of a Hilbert curve), or automatic: "
+                   "kway where delos was built with METIS")
+      ->transform(CLI::CheckedTransformer(methods));
+  partition->add_option("-o,--output", out.directory, "folder for the files (the grid's own)");
+  partition->add_option("--threads", out.threads, "threads")->check(CLI::Range(0, 4096));
+  partition->callback([&out] { out.command = Command::partition; });
+}
+
 Pairs split(const Words& words, const char* option, const char* example) {
   Pairs out;
   for (const std::string& word : words) {
@@ -90,6 +114,7 @@ ParseResult parse_arguments(int argc, const char* const* argv, Arguments& out) {
   add_mesh(app, out, overrides);
   add_check(app, out, require);
   add_convert(app, out);
+  add_partition(app, out);
   add_reader(app, out, Command::info, "info", "counts, digest, certificate and origin of a grid");
   add_reader(app, out, Command::plot, "plot", "pictures of a grid");
   out.command_line = command_line(argc, argv);

@@ -5,16 +5,19 @@
 #include <utility>
 #include <vector>
 
+#include "lifecycle/partitions.hpp"
+
 namespace delos::app {
 
-enum class Command { mesh, check, convert, info, plot };
+enum class Command { mesh, check, convert, partition, info, plot };
 
 struct Arguments {
   Command command = Command::mesh;
-  std::string file;       ///< configuration (mesh) or grid
-  std::string directory;  ///< -o; empty: what the configuration says; convert: the new file
-  std::string to;         ///< convert: the kind of the new file; empty: by its ending
-  int threads = 0;        ///< 0: what the configuration says
+  std::string file;            ///< configuration (mesh) or grid
+  std::string directory;       ///< -o; empty: what the configuration says; convert: the new file
+  std::string to;              ///< convert: the kind of the new file; empty: by its ending
+  PartitionWishes partitions;  ///< partition
+  int threads = 0;             ///< 0: what the configuration says
   bool quiet = false;
   std::vector<std::pair<std::string, std::string>> overrides;  ///< --set key=value
   std::vector<std::pair<std::string, std::string>> require;    ///< --require key=value

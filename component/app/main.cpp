@@ -24,6 +24,8 @@ int run(const Arguments& arguments) {
       return run_info(arguments);
     case Command::convert:
       return run_convert(arguments, cancel);
+    case Command::partition:
+      return run_partition(arguments, cancel);
     case Command::plot:
       return run_plot(arguments, cancel);
   }

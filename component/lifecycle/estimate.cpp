@@ -25,6 +25,7 @@ constexpr double kMeshBytes = 190.0;
 constexpr double kDualBytes = 1090.0;
 constexpr double kReportBytes = 1e6;
 constexpr double kGraphBytes = 50.0;  // a cell: six neighbours of up to eight digits
+constexpr double kPartBytes = 6.0;    // a cell and partition: a number and a line end
 
 double read_number(const char* path) {
   std::ifstream file(path);
@@ -67,6 +68,8 @@ Estimate estimate_cost(const Settings& settings, double n_cells, bool with_dual)
   }
   // Half as many faces with twice the corners: about the same.
   if (output.ugrid_cells) out.disk_bytes += static_cast<double>(ugrid_triangles_size_bytes(count));
+  out.disk_bytes += kPartBytes * static_cast<double>(count) *
+                    static_cast<double>(output.partitions.n_parts.size());
   if (output.graph) out.disk_bytes += kGraphBytes * static_cast<double>(count);
   return out;
 }

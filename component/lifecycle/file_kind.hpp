@@ -24,12 +24,13 @@ inline std::vector<std::string> file_kind_names() {
           "gmsh", "jigsaw",          "fesom"};
 }
 
-/// What follows the name of a grid: "mpas.nc", "vtu", ...
+/// What follows the name of a grid, "mpas.nc", "vtu", ..., in the order of FileKind.
+inline std::vector<std::string> file_endings() {
+  return {"mpas.nc", "ugrid_triangles.nc", "ugrid_cells.nc", "scrip.nc", "esmf.nc",
+          "vtu",     "gmsh.msh",           "jigsaw.msh",     "fesom"};
+}
 inline std::string file_ending(FileKind kind) {
-  const std::vector<std::string> endings = {
-      "mpas.nc", "ugrid_triangles.nc", "ugrid_cells.nc", "scrip.nc", "esmf.nc",
-      "vtu",     "gmsh.msh",           "jigsaw.msh",     "fesom"};
-  return endings[static_cast<std::size_t>(kind)];
+  return file_endings()[static_cast<std::size_t>(kind)];
 }
 
 /// Whether the file holds Voronoi cells, for which the dual is needed.

@@ -25,6 +25,7 @@ namespace {
 
 void check_cost(Context& context, const Settings& settings, double n_cells,
                 const GenerateScope& scope) {
+  if (scope.with_dual) check_partitions(settings.output.partitions, n_cells);
   const Estimate estimate = estimate_cost(settings, n_cells, scope.with_dual);
   check_estimate(estimate, available_memory_bytes());
   if (!scope.directory.empty()) check_output_folder(scope.directory, estimate.disk_bytes);
@@ -191,7 +192,14 @@ void finish(Context& context, Product& product, const GenerateScope& scope) {
                                      product.mesh, product.settings.latitude);
   }
   judge(context, product, scope.directory);
-  if (scope.with_dual) build_dual(context, product);
+  if (scope.with_dual) {
+    build_dual(context, product);
+    product.partitions =
+        make_partitions(context, *product.grid, product.settings.output.partitions);
+    for (const GridPartition& partition : product.partitions) {
+      report.partitions.push_back(report_entry(partition));
+    }
+  }
   report.phases = context.monitor.phases();
 }
 
@@ -204,7 +212,8 @@ OutputContent output_content(const Product& product, const std::string& command)
           product.spacing_table_m ? &*product.spacing_table_m : nullptr,
           product.spacing,
           file_notes(product, command),
-          {}};
+          {},
+          product.partitions};
 }
 
 Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe) {

@@ -24,6 +24,7 @@ struct Product {
   SpacingField spacing;                        ///< what the grid was asked to follow
   std::optional<LatLonField> spacing_table_m;  ///< when the settings write it
   std::shared_ptr<const Raster> elevation_m;   ///< when the recipe used it
+  std::vector<GridPartition> partitions;       ///< that the settings ask for, of the dual
   Report report;
 };
 

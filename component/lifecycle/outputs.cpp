@@ -15,6 +15,7 @@
 #include "io/gmsh.hpp"
 #include "io/jigsaw.hpp"
 #include "io/mpas.hpp"
+#include "io/part_file.hpp"
 #include "io/provenance.hpp"
 #include "io/scrip.hpp"
 #include "io/ugrid.hpp"
@@ -178,6 +179,10 @@ class OutputWriter {
     if (output.graph) {
       add("graph.info", [&](const std::string& path) { write_graph_info(path, *content_.grid); });
     }
+    for (const GridPartition& made : content_.partitions) {
+      add(part_file_ending(made.n_parts),
+          [&](const std::string& path) { write_parts(path, made.part_of_cell); });
+    }
   }
 
   void write_notes() {
@@ -272,6 +277,7 @@ std::vector<std::string> write_outputs(Context& context, const OutputContent& co
   const std::int64_t n_files = output.mpas + output.ugrid_triangles + output.ugrid_cells +
                                output.graph + output.spacing + 2 * output.report +
                                static_cast<std::int64_t>(output.more.size()) +
+                               static_cast<std::int64_t>(content.partitions.size()) +
                                static_cast<std::int64_t>(output.pictures.size());
   const Phase phase(context.monitor, "write", n_files);
   NewFolders folders(directory);

@@ -2,6 +2,7 @@
 #pragma once
 // The files of one run, all or none.
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +36,7 @@ struct OutputContent {
   FileNotes notes;
   /// Writes a picture ("globe", "map", "histograms") to a path; null: no pictures.
   std::function<void(const std::string& picture, const std::string& path)> draw;
+  std::span<const GridPartition> partitions = {};
 };
 
 /// Phase "write". Every file that settings.output names, into `directory` (made when it is not

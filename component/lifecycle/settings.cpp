@@ -130,6 +130,37 @@ LonLat read_view(MapReader& keys) {
   return {degrees[0] * kRadPerDeg, degrees[1] * kRadPerDeg};
 }
 
+PartitionWishes read_partitions(MapReader& keys) {
+  constexpr std::size_t kMostFiles = 64;  // a slip of the pen, rather than a wish
+  PartitionWishes out;
+  if (keys.has("partitions")) {
+    const auto numbers =
+        keys.quantities("partitions", Dimension::none, Bounds::between(2.0, 1e8), {0, kMostFiles});
+    for (const double number : numbers) {
+      const auto n_parts = static_cast<std::int64_t>(number);
+      if (static_cast<double>(n_parts) != number) {
+        keys.fail("partitions", number, ": parts are counted in whole numbers, e.g. [16, 64].");
+      }
+      if (std::find(out.n_parts.begin(), out.n_parts.end(), n_parts) != out.n_parts.end()) {
+        keys.fail("partitions", "has ", n_parts, " twice. Remove one.");
+      }
+      out.n_parts.push_back(n_parts);
+    }
+  }
+  if (out.n_parts.empty()) {
+    if (keys.has("partition_method")) {
+      keys.fail("partition_method", "says how to make `partitions`, of which there are none. Give ",
+                "their numbers, e.g. partitions: [16, 64].");
+    }
+    return out;
+  }
+  constexpr PartitionMethod kMethods[] = {PartitionMethod::automatic, PartitionMethod::kway,
+                                          PartitionMethod::curve};
+  out.method =
+      kMethods[keys.choice("partition_method", {"automatic", "kway", "curve"}, "automatic")];
+  return out;
+}
+
 OutputSettings read_output(MapReader keys) {
   OutputSettings out;
   out.directory = keys.string("directory", "out");
@@ -154,6 +185,7 @@ OutputSettings read_output(MapReader keys) {
     if (kind > FileKind::ugrid_cells) out.more.push_back(kind);
   }
   out.graph = keys.boolean("graph", true);
+  out.partitions = read_partitions(keys);
   out.report = keys.boolean("report", true);
   out.spacing = keys.boolean("spacing", false);
   out.pictures = keys.strings("pictures", {"globe", "map", "histograms"}, {});
@@ -208,9 +240,9 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
     read_baseline(root, out.generator == Generator::icosahedral ? "icosahedral" : "cubed_sphere",
                   out);
   }
-  out.output =
-      read_output(root.map("output", {"directory", "name", "formats", "graph", "report", "spacing",
-                                      "pictures", "view", "unit_sphere", "compress"}));
+  out.output = read_output(
+      root.map("output", {"directory", "name", "formats", "graph", "partitions", "partition_method",
+                          "report", "spacing", "pictures", "view", "unit_sphere", "compress"}));
   out.require = read_require(root);
   constexpr std::int64_t kMaxThreads = 4096;
   out.threads = static_cast<int>(root.integer("threads", 0, kMaxThreads, "0"));

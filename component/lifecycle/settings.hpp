@@ -10,6 +10,7 @@
 #include "geometry/ellipsoid.hpp"
 #include "io/rasters.hpp"
 #include "lifecycle/file_kind.hpp"
+#include "lifecycle/partitions.hpp"
 #include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
@@ -57,6 +58,7 @@ struct OutputSettings {
   bool mpas = false, ugrid_triangles = false, ugrid_cells = false;
   std::vector<FileKind> more;  ///< other kinds of grid files
   bool graph = false, report = false, spacing = false;
+  PartitionWishes partitions;
   std::vector<std::string> pictures;  ///< of globe, map, histograms
   LonLat view{0.0, 0.0};              ///< centre of the globe picture
   bool unit_sphere = false;           ///< MPAS on the unit sphere
@@ -64,7 +66,7 @@ struct OutputSettings {
 
   /// Whether any output needs the dual.
   bool needs_dual() const {
-    return mpas || ugrid_cells || graph || !pictures.empty() ||
+    return mpas || ugrid_cells || graph || !partitions.n_parts.empty() || !pictures.empty() ||
            std::any_of(more.begin(), more.end(), holds_cells);
   }
 };

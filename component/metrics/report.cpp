@@ -140,6 +140,19 @@ Json section_json(const ReportSection& section) {
   return out;
 }
 
+Json partitions_json(const std::vector<ReportPartition>& partitions) {
+  Json out = Json::array();
+  for (const ReportPartition& partition : partitions) {
+    Object entry;
+    entry.add("parts", partition.n_parts);
+    entry.json["method"] = partition.method;
+    entry.add("cut_edges", partition.n_cut_edges).add("cut_share", partition.cut_share);
+    entry.add("heaviest", partition.heaviest).add("lightest", partition.lightest);
+    out.push_back(entry.json);
+  }
+  return out;
+}
+
 Json phases_json(const std::vector<PhaseTime>& phases) {
   Json out = Json::array();
   for (const PhaseTime& phase : phases) {
@@ -268,6 +281,23 @@ void add_verdict(const Report& report, std::vector<std::string>& lines) {
   lines.push_back(missed.substr(0, kColumns));
 }
 
+/// One line, as many as it holds: "16 (kway): 4.2 % of edges cut, 1.02 of the mean; 64 ...".
+void add_partitions(const std::vector<ReportPartition>& partitions,
+                    std::vector<std::string>& lines) {
+  std::string row;
+  for (const ReportPartition& partition : partitions) {
+    const auto n_parts = static_cast<long long>(partition.n_parts);
+    const double percent = 100.0 * partition.cut_share;
+    const std::string entry =
+        row.empty() ? line("parts       %lld (%s): %.2g %% of edges cut, heaviest %.3f", n_parts,
+                           partition.method.c_str(), percent, partition.heaviest)
+                    : line("; %lld: %.2g %%, %.3f", n_parts, percent, partition.heaviest);
+    if (row.size() + entry.size() > kColumns) break;
+    row += entry;
+  }
+  if (!row.empty()) lines.push_back(row);
+}
+
 void add_times(const std::vector<PhaseTime>& phases, std::vector<std::string>& lines) {
   if (phases.empty()) return;
   double total_s = 0.0;
@@ -308,6 +338,7 @@ std::string report_json(const Report& report) {
   out["certificate"] = certificate_json(certificate(report.quality));
   out["requirements_missed"] = report.missed;
   for (const ReportSection& section : report.sections) out[section.name] = section_json(section);
+  if (!report.partitions.empty()) out["partitions"] = partitions_json(report.partitions);
   out["inputs"] = Json::array();
   for (const ReportInput& input : report.inputs) {
     out["inputs"].push_back({{"path", input.path}, {"sha256", input.sha256}});
@@ -361,6 +392,7 @@ std::string report_text(const Report& report) {
   add_sizes(report, lines);
   add_quality(report.quality, lines);
   add_verdict(report, lines);
+  add_partitions(report.partitions, lines);
   add_times(report.phases, lines);
   if (!report.digest.empty()) lines.push_back("digest      " + report.digest);
   if (lines.size() > kLines) lines.erase(lines.begin() + kLines - 1, lines.end() - 1);

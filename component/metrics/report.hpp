@@ -25,6 +25,16 @@ struct ReportInput {
   std::string sha256;
 };
 
+/// The grid cut into parts, one for each process of a model.
+struct ReportPartition {
+  std::int64_t n_parts = 0;
+  std::string method;
+  std::int64_t n_cut_edges = 0;
+  double cut_share = 0.0;  ///< of the edges
+  double heaviest = 0.0;   ///< load of a part over the mean load
+  double lightest = 0.0;
+};
+
 struct Report {
   std::string title;    ///< e.g. the configuration's name
   std::string version;  ///< of delos
@@ -36,6 +46,7 @@ struct Report {
   std::string digest;  ///< of the grid
   std::vector<ReportSection> sections;
   std::vector<ReportInput> inputs;
+  std::vector<ReportPartition> partitions;
   std::vector<std::string> missed;  ///< what was required and is not met: missed_requirements()
 };
 

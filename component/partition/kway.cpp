@@ -55,6 +55,27 @@ std::vector<idx_t> whole_weights(std::span<const double> weight) {
   return out;
 }
 
+/// Whether each cell can be reached from the first.
+bool is_connected(const std::vector<idx_t>& offsets, const std::vector<idx_t>& neighbours) {
+  std::vector<bool> is_reached(offsets.size() - 1, false);
+  std::vector<std::size_t> front{0};
+  is_reached[0] = true;
+  std::size_t n_reached = 1;
+  while (!front.empty()) {
+    const std::size_t cell = front.back();
+    front.pop_back();
+    for (auto k = static_cast<std::size_t>(offsets[cell]);
+         k < static_cast<std::size_t>(offsets[cell + 1]); ++k) {
+      const auto next = static_cast<std::size_t>(neighbours[k]);
+      if (is_reached[next]) continue;
+      is_reached[next] = true;
+      ++n_reached;
+      front.push_back(next);
+    }
+  }
+  return n_reached == is_reached.size();
+}
+
 }  // namespace
 
 bool is_available() { return true; }
@@ -68,8 +89,9 @@ std::vector<Index> partition(const Grid& grid, Index n_parts, std::span<const do
   offsets.reserve(static_cast<std::size_t>(grid.n_cells()) + 1);
   neighbours.reserve(2 * static_cast<std::size_t>(grid.n_edges()));
   for (Index cell = 0; cell < grid.n_cells(); ++cell) {
-    const auto row = grid.cells_on_cell.row(cell);
-    neighbours.insert(neighbours.end(), row.begin(), row.end());
+    for (const Index neighbour : grid.cells_on_cell.row(cell)) {
+      if (neighbour != kNone) neighbours.push_back(neighbour);  // else the cell is at a border
+    }
     offsets.push_back(static_cast<idx_t>(neighbours.size()));
   }
   std::vector<idx_t> weights = whole_weights(weight);
@@ -79,7 +101,8 @@ std::vector<Index> partition(const Grid& grid, Index n_parts, std::span<const do
   METIS_SetDefaultOptions(options.data());
   options[METIS_OPTION_NUMBERING] = 0;
   options[METIS_OPTION_SEED] = kSeed;
-  options[METIS_OPTION_CONTIG] = 1;  // a part in two pieces has a longer border
+  // A part in two pieces has a longer border; METIS refuses the wish where the grid has pieces.
+  options[METIS_OPTION_CONTIG] = is_connected(offsets, neighbours) ? 1 : 0;
   const OwnRandomState random;
   const int status =
       METIS_PartGraphKway(&n_cells, &n_constraints, offsets.data(), neighbours.data(),

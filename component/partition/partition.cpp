@@ -99,18 +99,25 @@ const char* to_string(PartitionMethod method) {
   return "unknown";
 }
 
-std::vector<Index> partition(parallel::Executor& exec, const Grid& grid,
-                             const PartitionOptions& options) {
+Partitioned partition_by(parallel::Executor& exec, const Grid& grid,
+                         const PartitionOptions& options) {
   check(grid, options);
-  if (options.n_parts == 1) return std::vector<Index>(at(grid.n_cells()), 0);
+  if (options.n_parts == 1) {
+    return {std::vector<Index>(at(grid.n_cells()), 0), PartitionMethod::curve};
+  }
   const bool by_metis = options.method == PartitionMethod::kway ||
                         (options.method == PartitionMethod::automatic && kway::is_available());
   if (by_metis && (suits_kway(grid, options) || !kway::is_available())) {
     std::vector<Index> part =
         kway::partition(grid, static_cast<Index>(options.n_parts), options.cell_weight);
-    if (!has_empty_part(part, options.n_parts)) return part;
+    if (!has_empty_part(part, options.n_parts)) return {std::move(part), PartitionMethod::kway};
   }
-  return along_curve(exec, grid, options);
+  return {along_curve(exec, grid, options), PartitionMethod::curve};
+}
+
+std::vector<Index> partition(parallel::Executor& exec, const Grid& grid,
+                             const PartitionOptions& options) {
+  return partition_by(exec, grid, options).part_of_cell;
 }
 
 }  // namespace delos

@@ -25,10 +25,18 @@ struct PartitionOptions {
   std::span<const double> cell_weight = {};
 };
 
+struct Partitioned {
+  std::vector<Index> part_of_cell;
+  PartitionMethod method;  ///< the one that gave them: kway or curve
+};
+
 /// Part of each cell, [n_cells] in [0, n_parts), no part empty. The same for any number of threads;
 /// `curve` on any machine, `kway` with one version of METIS. Parts of `kway` are connected where
 /// METIS finds them so. Linear but for the logarithm of n_parts.
 /// Error(config) for fewer cells than parts, weights that can't be used, or `kway` without METIS.
+Partitioned partition_by(parallel::Executor& exec, const Grid& grid,
+                         const PartitionOptions& options);
+/// The parts alone.
 std::vector<Index> partition(parallel::Executor& exec, const Grid& grid,
                              const PartitionOptions& options);
 

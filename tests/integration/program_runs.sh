@@ -58,6 +58,29 @@ for from in mpas.nc ugrid_triangles.nc ugrid_cells.nc scrip.nc esmf.nc vtu gmsh.
     rm -rf "converted.$to"
   done
 done
+# Parts for the processes of a model.
+must 'mesh writes the partitions asked for' sh -c "
+  '$delos' mesh c.yaml -o parts --set 'output.partitions=[4, 12]' >parts.txt 2>/dev/null &&
+  grep -q '^parts  *4 (' parts.txt && grep -q 'parts/small.graph.info.part.12' parts.txt &&
+  grep -q '\"heaviest\"' parts/small.report.json"
+n_cells=$(head -1 out/small.graph.info | cut -d' ' -f1)
+must 'a part file has a line for each cell and each part' sh -c "
+  test \$(wc -l <parts/small.graph.info.part.12) = $n_cells &&
+  test \"\$(sort -nu parts/small.graph.info.part.12 | tr '\n' ' ')\" = '0 1 2 3 4 5 6 7 8 9 10 11 '"
+must 'partition makes the same parts of any file of the grid' sh -c "
+  '$delos' partition parts/small.mpas.nc 4 >partition.txt && grep -q 'of the edges cut' partition.txt &&
+  cp parts/small.graph.info.part.4 four &&
+  '$delos' partition parts/small.ugrid_triangles.nc 4 12 -o . >/dev/null && cmp four small.graph.info.part.4 &&
+  cmp parts/small.graph.info.part.12 small.graph.info.part.12"
+must 'partition takes the curve when asked' sh -c "
+  '$delos' partition out/small.mpas.nc 3 --method curve -o . | grep -q '3 parts (curve)'"
+must 'partition refuses more parts than cells' sh -c "
+  ! '$delos' partition out/small.mpas.nc 4 100000 -o q 2>few.txt && grep -q 'too few for 100000' few.txt &&
+  test ! -e q/small.graph.info.part.4"
+must 'mesh refuses more parts than cells before it begins' sh -c "
+  ! '$delos' mesh c.yaml -o few --set 'output.partitions=[100000]' 2>few.txt && test ! -e few &&
+  grep -q 'output.partitions asks for 100000 parts' few.txt && ! grep -q '^refine' few.txt"
+
 must 'convert refuses an ending that says nothing' sh -c "
   ! '$delos' convert out/small.mpas.nc x.nc 2>convert_error.txt && grep -q -e '--to' convert_error.txt && test ! -e x.nc"
 

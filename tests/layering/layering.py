@@ -30,7 +30,7 @@ BELOW = {
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
     "lifecycle": ["adapt", "remap", "io", "metrics", "domain", "partition", "dual", "relax", "refine", "sizing",
                   "triangulation", "geometry", "time", "core"],
-    "app": ["lifecycle", "pictures", "remap", "io", "metrics", "dual", "relax", "refine", "sizing",
+    "app": ["lifecycle", "pictures", "remap", "io", "metrics", "partition", "dual", "relax", "refine", "sizing",
             "triangulation", "geometry", "time", "core"],
 }
 # What adapters may name: the phase functions and what these hand over.

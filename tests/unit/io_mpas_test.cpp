@@ -8,6 +8,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "io/part_file.hpp"
 #include "io/ugrid.hpp"
 #include "support/expect_error.hpp"
 #include "support/file_size_limit.hpp"
@@ -287,6 +288,17 @@ TEST_CASE("graph.info lists the neighbours of each cell from 1, as METIS reads t
     CHECK(std::equal(listed.begin(), listed.end(), expected.begin(), expected.end()));
   }
   CHECK(cell == grid.n_cells());
+}
+
+TEST_CASE("a part file has the part of each cell on its line, from 0") {
+  const TemporaryFolder folder;
+  const std::string path = folder.file(delos::part_file_ending(11));
+  CHECK(std::filesystem::path(path).filename() == "graph.info.part.11");
+  delos::write_parts(path, std::vector<delos::Index>{3, 10, 0, 10});
+  std::ifstream file(path);
+  CHECK(std::string(std::istreambuf_iterator<char>(file), {}) == "3\n10\n0\n10\n");
+  expect_error(ErrorKind::output, {"there is no folder"},
+               [&] { delos::write_parts(folder.file("no/part.2"), std::vector<delos::Index>{0}); });
 }
 
 TEST_CASE("a grid on an ellipsoid is refused and nothing is written") {

@@ -61,6 +61,12 @@ TEST_CASE("an unknown source or word is refused with those that exist") {
   has(error_of(with_source("{type: cost, spacing: 60 km}")), "Did you mean 'coast'?");
   has(error_of("surface: {shape: spere}\n"), "Did you mean 'sphere'?");
   has(error_of(std::string(kUniform) + "output: {formats: [mpaz]}\n"), "Did you mean 'mpas'?");
+  has(error_of(std::string(kUniform) + "output: {partitions: [1]}\n"), "between 2 and");
+  has(error_of(std::string(kUniform) + "output: {partitions: [2.5]}\n"), "whole numbers");
+  has(error_of(std::string(kUniform) + "output: {partitions: [8, 16, 8]}\n"), "has 8 twice");
+  has(error_of(std::string(kUniform) + "output: {partition_method: curve}\n"), "[16, 64]");
+  has(error_of(std::string(kUniform) + "output: {partitions: [8], partition_method: metis}\n"),
+      "Valid here: automatic, kway, curve");
 }
 
 TEST_CASE("a wrong type is refused") {

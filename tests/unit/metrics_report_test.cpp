@@ -100,6 +100,22 @@ TEST_CASE("what is required and missed stands in both reports") {
   CHECK(report_text(report).find("but missed: angle_max degree_max\n") != std::string::npos);
 }
 
+TEST_CASE("partitions stand in both reports, on one line of the screen") {
+  Report report = sample_report();
+  report.partitions = {{16, "kway", 1552, 0.0513, 1.021, 0.98},
+                       {64, "kway", 3116, 0.1031, 1.029, 0.97}};
+  const auto json = nlohmann::json::parse(report_json(report));
+  CHECK(json["partitions"][1]["parts"] == 64);
+  CHECK(json["partitions"][1]["cut_edges"] == 3116);
+  CHECK(json["partitions"][0]["method"] == "kway");
+  CHECK(json["partitions"][0]["heaviest"].get<double>() == 1.021);
+  CHECK(report_text(report).find("\nparts       16 (kway): 5.1 % of edges cut, heaviest 1.021; "
+                                 "64: 10 %, 1.029\n") != std::string::npos);
+  for (int n = 100; n < 140; ++n) report.partitions.push_back({n, "kway", 1, 0.5, 1.0, 1.0});
+  std::istringstream lines(report_text(report));
+  for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
+}
+
 TEST_CASE("a number that is not finite is refused by its name") {
   Report report = sample_report();
   report.quality.stagger_mean = std::numeric_limits<double>::quiet_NaN();

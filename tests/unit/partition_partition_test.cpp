@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <limits>
 
+#include "partition/balance.hpp"
 #include "partition/kway.hpp"
 #include "support/expect_error.hpp"
 #include "support/sample_grids.hpp"
@@ -34,11 +35,18 @@ std::vector<double> loads(const std::vector<Index>& part, std::int64_t n_parts,
   return out;
 }
 
-/// Edges between two parts.
-std::int64_t cut_edges(const Grid& grid, const std::vector<Index>& part) {
-  return std::count_if(grid.cells_on_edge.begin(), grid.cells_on_edge.end(), [&](const auto& ends) {
-    return part[static_cast<std::size_t>(ends[0])] != part[static_cast<std::size_t>(ends[1])];
-  });
+/// The grid without what lies across the edges of one cell: a hole, and one cell cut off.
+Grid with_borders_around(Grid grid, Index cell) {
+  for (auto& ends : grid.cells_on_edge) {
+    if (ends[0] != cell && ends[1] != cell) continue;
+    ends = {std::min(ends[0], ends[1]) == cell ? cell : std::min(ends[0], ends[1]), kNone};
+  }
+  for (Index i = 0; i < grid.n_cells(); ++i) {
+    for (Index& neighbour : grid.cells_on_cell.row(i)) {
+      if (i == cell || neighbour == cell) neighbour = kNone;
+    }
+  }
+  return grid;
 }
 
 }  // namespace
@@ -104,7 +112,52 @@ TEST_CASE("borders are as short as a part's shape allows") {
     CAPTURE(to_string(method));
     const auto part = partition(exec, grid, {kParts, method, {}});
     const double bound = (method == PartitionMethod::curve || !kway::is_available()) ? 1.5 : 1.2;
-    CHECK(static_cast<double>(cut_edges(grid, part)) < bound * kRound);
+    CHECK(static_cast<double>(measure_partition(grid, part, kParts).n_cut_edges) < bound * kRound);
+  }
+}
+
+TEST_CASE("a grid with a border and two pieces is cut by its inner edges") {
+  parallel::Executor exec(1);
+  const Grid whole = bisected(4);
+  const Grid grid = with_borders_around(whole, 100);
+  for (const PartitionMethod method : methods()) {
+    CAPTURE(to_string(method));
+    const auto made = partition_by(exec, grid, {4, method, {}});
+    const PartitionBalance balance = measure_partition(grid, made.part_of_cell, 4);
+    std::int64_t n_cut = 0;
+    for (Index cell = 0; cell < grid.n_cells(); ++cell) {
+      for (const Index other : grid.cells_on_cell.row(cell)) {
+        n_cut += other > cell && made.part_of_cell[static_cast<std::size_t>(other)] !=
+                                     made.part_of_cell[static_cast<std::size_t>(cell)];
+      }
+    }
+    CHECK(balance.n_cut_edges == n_cut);
+    CHECK(balance.cut_share ==
+          static_cast<double>(n_cut) /
+              static_cast<double>(whole.n_edges() - whole.cells_on_cell.offsets.length_of(100)));
+    CHECK(balance.heaviest < 1.05);
+  }
+}
+
+TEST_CASE("the balance is told by weight, and by which method") {
+  parallel::Executor exec(1);
+  const Grid grid = bisected(1);
+  std::vector<Index> part(static_cast<std::size_t>(grid.n_cells()), 0);
+  std::vector<double> weight(part.size(), 0.0);
+  part[3] = 1;
+  weight[3] = 3.0;
+  weight[5] = 1.0;
+  const PartitionBalance balance = measure_partition(grid, part, 2, weight);
+  CHECK(balance.heaviest == 1.5);
+  CHECK(balance.lightest == 0.5);
+  CHECK(balance.n_cut_edges == grid.cells_on_cell.offsets.length_of(3));
+  CHECK(partition_by(exec, grid, {2, PartitionMethod::curve, {}}).method == PartitionMethod::curve);
+  // Too few cells a part for METIS.
+  CHECK(partition_by(exec, grid, {8, PartitionMethod::automatic, {}}).method ==
+        PartitionMethod::curve);
+  if (kway::is_available()) {
+    CHECK(partition_by(exec, bisected(3), {2, PartitionMethod::automatic, {}}).method ==
+          PartitionMethod::kway);
   }
 }
 
