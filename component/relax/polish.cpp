@@ -2,6 +2,7 @@
 #include "relax/polish.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 #include "relax/patch.hpp"
@@ -37,6 +38,9 @@ constexpr std::size_t kRoughShare = 50;
 //   take time. Most of what can be gained is gained by moves, in a few rounds.
 constexpr std::size_t kHostileShare = 40;
 constexpr int kHostileRounds = 16;
+//   Then all means go into what is left below this, which still excludes an angle of 90 degrees;
+//   unless even that is a crowd.
+constexpr double kSafeQuality = 0.885;
 
 std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
@@ -285,6 +289,16 @@ Aim choose_aim(const MeshView& view, const RelaxOptions& options, std::vector<In
   return {near_target, kMovesOnly, std::min(kHostileRounds, options.polish_rounds)};
 }
 
+// What is left to do for the mesh after the first aim; nothing unless that was a low one.
+std::optional<Aim> choose_last_aim(const MeshView& view, const RelaxOptions& options,
+                                   const Aim& first, std::vector<Index>& bad) {
+  if (first.n_means == kMeans.size()) return {};
+  const Aim last{std::min(kSafeQuality, first.quality), kMeans.size(), options.polish_rounds};
+  std::erase_if(bad, [&](Index tri) { return score(view.mesh, tri) >= last.quality; });
+  if (bad.size() * kHostileShare > view.mesh.triangles.size()) return {};
+  return last;
+}
+
 // Takes out what patches gave up; the part follows.
 void compact_all(parallel::Executor& exec, Mesh& mesh, RelaxPart* part, MeshEdits& edits) {
   if (edits.dead_vertices.empty()) return;
@@ -304,48 +318,85 @@ void compact_all(parallel::Executor& exec, Mesh& mesh, RelaxPart* part, MeshEdit
   compact(exec, mesh, edits);
 }
 
+class Polisher {
+ public:
+  Polisher(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
+           RelaxPart* part)
+      : context_(context),
+        target_(target),
+        options_(options),
+        mesh_(mesh),
+        part_(part),
+        at_vertex_(part == nullptr ? triangle_at_vertex(context.exec, mesh)
+                                   : std::move(part->at_vertex)),
+        view_{mesh, at_vertex_, part},
+        tried_(mesh.vertices.size(), 0),
+        is_taken_(mesh.vertices.size(), 0) {}
+
+  PolishReport run() {
+    const std::size_t n_triangles =
+        part_ == nullptr ? mesh_.triangles.size() : part_->triangles.size();
+    const std::size_t n_vertices = mesh_.vertices.size();
+    bad_ = find_bad(context_.exec, mesh_, part_, options_.target_quality);
+    const Aim aim = choose_aim(view_, options_, bad_);
+    context_.monitor.advance(static_cast<std::int64_t>(n_triangles - bad_.size()));
+    mend_all(aim);
+    const std::size_t n_below_target = bad_.size();
+    if (const auto last = choose_last_aim(view_, options_, aim, bad_)) mend_all(*last);
+    report_.n_below_target = static_cast<std::int64_t>(n_below_target);
+    report_.n_inserted = static_cast<std::int64_t>(mesh_.vertices.size() - n_vertices);
+    report_.n_removed = static_cast<std::int64_t>(edits_.dead_vertices.size());
+    compact_all(context_.exec, mesh_, part_, edits_);
+    return report_;
+  }
+
+ private:
+  /// Rounds over the bad triangles until there are none, or nothing helps them.
+  void mend_all(const Aim& aim) {
+    const RepairOptions repair{aim.quality, options_.repair};
+    for (int round = 0; round < aim.most_rounds && !bad_.empty(); ++round) {
+      context_.monitor.check_cancelled();
+      std::vector<Job> jobs = pick_jobs(context_.exec, view_, tried_, {bad_, aim}, is_taken_);
+      if (jobs.empty()) break;
+      mend(context_, target_, repair, view_, jobs);
+      commit(jobs, mesh_, at_vertex_, tried_, edits_);
+      is_taken_.resize(mesh_.vertices.size(), 0);
+      if (part_ != nullptr) part_->is_free.resize(mesh_.vertices.size(), 1);
+      std::vector<Index> written = edits_.touched_triangles;
+      report_.n_flips += restore_around(context_.exec, target_.surface, mesh_, written);
+      for (const Index tri : written) {
+        for (const Index v : mesh_.triangle(tri).vertex) at_vertex_[at(v)] = tri;
+      }
+      const std::size_t n_before = bad_.size();
+      bad_ = still_bad(context_.exec, view_, aim.quality, std::move(bad_), written);
+      context_.monitor.advance(static_cast<std::int64_t>(n_before) -
+                               static_cast<std::int64_t>(bad_.size()));
+      ++report_.rounds;
+    }
+  }
+
+  Context& context_;
+  const Target& target_;
+  const RelaxOptions& options_;
+  Mesh& mesh_;
+  RelaxPart* part_;
+  TriangleAtVertex at_vertex_;
+  const MeshView view_;
+  TriedMeans tried_;
+  std::vector<char> is_taken_;
+  std::vector<Index> bad_;
+  MeshEdits edits_;
+  PolishReport report_;
+};
+
 }  // namespace
 
 PolishReport polish(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
                     RelaxPart* part) {
-  PolishReport report;
-  TriangleAtVertex at_vertex =
-      part == nullptr ? triangle_at_vertex(context.exec, mesh) : std::move(part->at_vertex);
-  const MeshView view{mesh, at_vertex, part};
   const std::int64_t n_triangles =
       static_cast<std::int64_t>(part == nullptr ? mesh.triangles.size() : part->triangles.size());
   const Phase phase(context.monitor, "polish", n_triangles);
-  std::vector<Index> bad = find_bad(context.exec, mesh, part, options.target_quality);
-  const Aim aim = choose_aim(view, options, bad);
-  const RepairOptions repair{aim.quality, options.repair};
-  context.monitor.advance(n_triangles - static_cast<std::int64_t>(bad.size()));
-  TriedMeans tried(mesh.vertices.size(), 0);
-  std::vector<char> is_taken(mesh.vertices.size(), 0);
-  const auto n_before = static_cast<std::int64_t>(mesh.vertices.size());
-  MeshEdits edits;
-  for (int round = 0; round < aim.most_rounds && !bad.empty(); ++round) {
-    context.monitor.check_cancelled();
-    std::vector<Job> jobs = pick_jobs(context.exec, view, tried, {bad, aim}, is_taken);
-    if (jobs.empty()) break;
-    mend(context, target, repair, view, jobs);
-    commit(jobs, mesh, at_vertex, tried, edits);
-    is_taken.resize(mesh.vertices.size(), 0);
-    if (part != nullptr) part->is_free.resize(mesh.vertices.size(), 1);
-    std::vector<Index> written = edits.touched_triangles;
-    report.n_flips += restore_around(context.exec, target.surface, mesh, written);
-    for (const Index tri : written) {
-      for (const Index v : mesh.triangle(tri).vertex) at_vertex[at(v)] = tri;
-    }
-    const auto n_bad_before = static_cast<std::int64_t>(bad.size());
-    bad = still_bad(context.exec, view, aim.quality, std::move(bad), written);
-    context.monitor.advance(n_bad_before - static_cast<std::int64_t>(bad.size()));
-    ++report.rounds;
-  }
-  report.n_inserted = static_cast<std::int64_t>(mesh.vertices.size()) - n_before;
-  report.n_removed = static_cast<std::int64_t>(edits.dead_vertices.size());
-  report.n_below_target = static_cast<std::int64_t>(bad.size());
-  compact_all(context.exec, mesh, part, edits);
-  return report;
+  return Polisher(context, target, options, mesh, part).run();
 }
 
 }  // namespace delos
