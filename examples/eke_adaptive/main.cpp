@@ -70,11 +70,11 @@ struct Model {
     std::vector<double> moved(static_cast<std::size_t>(now.n_cells()));
     transfer.apply(tracer, moved);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
-    std::printf("  %lld cells, %.1f %% of them as before; transfer %.2f s, its total off by %.1e\n",
-                static_cast<long long>(now.n_cells()),
-                100.0 * static_cast<double>(transfer.n_unchanged()) /
-                    static_cast<double>(now.n_cells()),
-                seconds.count(), total(moved, now) / total_at_start - 1.0);
+    std::printf(
+        "  %lld cells, %.1f %% of them as before; transfer %.2f s, its total off by %.1e\n",
+        static_cast<long long>(now.n_cells()),
+        100.0 * static_cast<double>(transfer.n_unchanged()) / static_cast<double>(now.n_cells()),
+        seconds.count(), total(moved, now) / total_at_start - 1.0);
     tracer = std::move(moved);
     grid = now;
   }
@@ -171,8 +171,7 @@ void follow_snapshots(const Arguments& arguments) {
   delos::Clock clock({.start = start,
                       .stop = start + stay * (2 * static_cast<std::int64_t>(eke.n_times())),
                       .step = stay});
-  run(component, clock, arguments.out,
-      [&](std::size_t step) { energy.store(eke.read(step / 2)); });
+  run(component, clock, arguments.out, [&](std::size_t step) { energy.store(eke.read(step / 2)); });
 }
 
 }  // namespace

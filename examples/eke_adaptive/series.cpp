@@ -40,7 +40,8 @@ Series::Series(const std::string& path, const std::string& variable) : path_(pat
   int n_dimensions = 0;
   must(nc_inq_varid(file_, variable.c_str(), &variable_), path, variable);
   must(nc_inq_varndims(file_, variable_, &n_dimensions), path, variable);
-  if (n_dimensions != 3) throw std::runtime_error(path + ": " + variable + " is no f(time, lat, lon)");
+  if (n_dimensions != 3)
+    throw std::runtime_error(path + ": " + variable + " is no f(time, lat, lon)");
   must(nc_inq_vardimid(file_, variable_, dimensions.data()), path, variable);
   must(nc_inq_dimlen(file_, dimensions[0], &n_times_), path, "times");
   lat_deg_ = axis(file_, dimensions[1], path);
