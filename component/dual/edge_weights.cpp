@@ -35,6 +35,11 @@ double sign_of_side(bool is_first) {
   return kSign[static_cast<std::size_t>(is_first)];
 }
 
+// Whether the edge between them points out of the cell: its neighbour is the higher, or gone.
+bool points_out(Index cell, Index neighbour) {
+  return static_cast<std::uint32_t>(neighbour) > static_cast<std::uint32_t>(cell);
+}
+
 template <std::size_t kDegree>
 void gather(const Grid& grid, Index cell, std::size_t n, CellRing<kDegree>& ring) {
   const Index* edges = grid.edges_on_cell.row(cell).data();
@@ -46,7 +51,7 @@ void gather(const Grid& grid, Index cell, std::size_t n, CellRing<kDegree>& ring
     const double share =
         area != 0.0 ? shared_kite_m2(grid, cell, vertices[j]) / area : 1.0 / static_cast<double>(n);
     const double flux_length =
-        sign_of_side(neighbours[j] > cell) * grid.vertex_distance_m[at(edges[j])];
+        sign_of_side(points_out(cell, neighbours[j])) * grid.vertex_distance_m[at(edges[j])];
     ring.edge[j] = ring.edge[j + n] = edges[j];
     ring.share[j] = ring.share[j + n] = share;
     ring.flux_length[j] = ring.flux_length[j + n] = flux_length;
@@ -63,7 +68,7 @@ void weigh_around(Grid& grid, Index cell, std::size_t any_degree) {
   const Index* neighbours = grid.cells_on_cell.row(cell).data();
   for (std::size_t j = 0; j < n; ++j) {
     const Index edge = ring.edge[j];
-    const bool first_half = neighbours[j] > cell;
+    const bool first_half = points_out(cell, neighbours[j]);
     const double distance = grid.cell_distance_m[at(edge)];
     const double inverse = distance > 0.0 ? 1.0 / distance : 0.0;
     const double scale = sign_of_side(first_half) * inverse;
@@ -101,7 +106,7 @@ RowOffsets rows_of_edges(parallel::Executor& exec, const Grid& grid) {
   parallel::for_index(exec, grid.n_edges(), kWeightGrain, [&](std::int64_t edge) {
     const auto [c, d] = grid.cells_on_edge[at(edge)];
     const RowOffsets& of_cell = grid.edges_on_cell.offsets;
-    counts[at(edge)] = of_cell.length_of(c) + of_cell.length_of(d) - 2;
+    counts[at(edge)] = of_cell.length_of(c) - 1 + (d == kNone ? 0 : of_cell.length_of(d) - 1);
   });
   parallel::scan_counts(exec, kWeightGrain, counts);
   return RowOffsets(std::move(counts));

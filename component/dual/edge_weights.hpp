@@ -14,7 +14,8 @@ namespace delos::dual {
 /// Thuburn, Ringler, Skamarock & Klemp 2009, Eq. 33, doi:10.1016/j.jcp.2009.08.006;
 /// Ringler et al. 2010, section 3, doi:10.1016/j.jcp.2009.12.007.
 /// Laws: dc(e) w(e, e') / dv(e') is antisymmetric; the divergence of the tangential flux on a
-/// triangle is the kite-weighted mean of the divergences on its cells.
+/// triangle is the kite-weighted mean of the divergences on its cells. A missing cell
+/// (cells_on_edge[e][1] = kNone) has no share in a row.
 void weigh_edges(parallel::Executor& exec, Grid& grid);
 
 }  // namespace delos::dual

@@ -73,22 +73,27 @@ struct Grid {
   //     cells_on_cell[j] is across edge j
   Ragged<Index> edges_on_cell, vertices_on_cell, cells_on_cell;
   //     an edge's normal points from its cell [0] to its cell [1], [0] < [1]; its vertex [1] is 90
-  //     degrees left of that; cell j of a vertex is between its edges j and j+1
+  //     degrees left of that; cell j of a vertex is between its edges j and j+1.
+  //     A grid of a part of the surface has a border. There kNone stands in cells_on_cell, in
+  //     cells_on_edge[1] (the normal points out), and in cells_on_vertex and edges_on_vertex at the
+  //     place of what is gone. Edges and vertices belong to at least one cell; a cell has all its
+  //     edges and vertices
   Array<std::array<Index, 2>> cells_on_edge;
   Array<std::array<Index, 2>> vertices_on_edge;
   Array<std::array<Index, 3>> cells_on_vertex;
   Array<std::array<Index, 3>> edges_on_vertex;
-  Ragged<Index> edges_on_edge;  // first those of cells_on_edge[0], then those of [1]
+  Ragged<Index> edges_on_edge;  // first those of cells_on_edge[0], then those of [1] if any
 
   // --- measures
   Array<double> cell_area_m2;                 // [n_cells]
   Array<double> triangle_area_m2;             // [n_vertices] sum of its kites
-  Array<std::array<double, 3>> kite_area_m2;  // [n_vertices] as cells_on_vertex
-  Array<double> cell_distance_m;              // [n_edges] between the two cells (dc)
-  Array<double> vertex_distance_m;            // [n_edges] between the two vertices (dv)
-  Array<double> edge_angle_rad;               // [n_edges] of the normal from local east
-  Ragged<double> weights_on_edge;             // tangential weights, as edges_on_edge
-  Array<double> cell_spacing_m;               // [n_cells] the spacing that was asked for
+  Array<std::array<double, 3>> kite_area_m2;  // [n_vertices] as cells_on_vertex; 0 where none
+  // [n_edges] between the two cells (dc); at a border as far as the cell that is gone was
+  Array<double> cell_distance_m;
+  Array<double> vertex_distance_m;  // [n_edges] between the two vertices (dv)
+  Array<double> edge_angle_rad;     // [n_edges] of the normal from local east
+  Ragged<double> weights_on_edge;   // tangential weights, as edges_on_edge
+  Array<double> cell_spacing_m;     // [n_cells] the spacing that was asked for
   // The same at the projected middle of the two cells, [n_edges]; empty where nobody filled it in
   // (build_grid has no field). Not part of the digest.
   Array<double> edge_spacing_m;
@@ -97,5 +102,14 @@ struct Grid {
   std::int64_t n_edges() const { return static_cast<std::int64_t>(cells_on_edge.size()); }
   std::int64_t n_vertices() const { return static_cast<std::int64_t>(vertex_position.size()); }
 };
+
+/// Whether the cells cover the whole surface: no table holds kNone.
+inline bool is_closed(const Grid& grid) {
+  const auto is_complete = [](const auto& cells) {
+    return std::ranges::find(cells, kNone) == cells.end();
+  };
+  return std::ranges::all_of(grid.cells_on_vertex, is_complete) &&
+         std::ranges::all_of(grid.cells_on_edge, is_complete);
+}
 
 }  // namespace delos

@@ -7,12 +7,14 @@
 
 #include "core/elementary.hpp"
 #include "core/hash.hpp"
+#include "dual/rules.hpp"
 
 namespace delos {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-constexpr std::size_t kIdsShown = 8;
+using dual::Rules;
+
+constexpr std::int64_t kGrain = Rules::kGrain;
 // The energy-conserving antisymmetry of the weights is exact but for rounding.
 constexpr double kAntisymmetry = 1e-12;
 // A coarser tolerance than this means a grid of someone else, weights rounded likewise.
@@ -24,48 +26,6 @@ double unless(bool holds) { return holds ? 0.0 : 1.0; }
 
 // The larger error; a NaN is the largest.
 double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
-
-/// Runs one rule after the other over a kind of element and keeps those that are broken.
-class Rules {
- public:
-  Rules(Context& context, std::vector<BrokenRule>& broken) : context_(context), broken_(broken) {}
-
-  /// error(i) > limit (or NaN) breaks the rule at element i.
-  template <class ErrorOf>
-  void check(const char* rule, std::int64_t n, double limit, ErrorOf&& error) {
-    context_.monitor.check_cancelled();
-    BrokenRule found = parallel::reduce(
-        context_.exec, n, kGrain, BrokenRule{},
-        [&](std::int64_t begin, std::int64_t end) {
-          BrokenRule part;
-          for (std::int64_t i = begin; i < end; ++i) note(part, i, error(i), limit);
-          return part;
-        },
-        [](BrokenRule total, const BrokenRule& more) {
-          total.n_broken += more.n_broken;
-          total.worst = std::max(total.worst, more.worst);
-          for (const Index id : more.ids) {
-            if (total.ids.size() < kIdsShown) total.ids.push_back(id);
-          }
-          return total;
-        });
-    if (found.n_broken == 0) return;
-    found.rule = rule;
-    broken_.push_back(std::move(found));
-  }
-  bool all_hold() const { return broken_.empty(); }
-
- private:
-  static void note(BrokenRule& part, std::int64_t i, double error, double limit) {
-    if (error <= limit) return;
-    ++part.n_broken;
-    part.worst = std::max(part.worst, std::isnan(error) ? 1e300 : error);
-    if (part.ids.size() < kIdsShown) part.ids.push_back(static_cast<Index>(i));
-  }
-
-  Context& context_;
-  std::vector<BrokenRule>& broken_;
-};
 
 // ------------------------------------------------------------------ sizes and ids
 
@@ -103,22 +63,45 @@ bool in_range(const Row& ids, std::int64_t n) {
   return std::all_of(ids.begin(), ids.end(), [&](Index id) { return id >= 0 && id < n; });
 }
 
+// The same where a grid with a border has kNone.
+template <class Row>
+bool in_range_or_none(const Row& ids, std::int64_t n) {
+  return std::all_of(ids.begin(), ids.end(), [&](Index id) { return id >= kNone && id < n; });
+}
+
+template <class Row>
+bool is_complete(const Row& ids) {
+  return std::find(ids.begin(), ids.end(), kNone) == ids.end();
+}
+
+// A vertex has a cell, and those edges that lie beside a cell.
+bool borders_agree(const std::array<Index, 3>& cells, const std::array<Index, 3>& edges) {
+  bool agree = cells[0] != kNone || cells[1] != kNone || cells[2] != kNone;
+  for (std::size_t j = 0; j < 3; ++j) {
+    const bool has_cell = cells[j] != kNone || cells[(j + 2) % 3] != kNone;
+    agree = agree && has_cell == (edges[j] != kNone);
+  }
+  return agree;
+}
+
 void check_ids(const Grid& g, Rules& rules) {
   rules.check("ids on cells are in range and a cell has at least three edges", g.n_cells(), 0.0,
               [&](std::int64_t i) {
                 return unless(g.edges_on_cell.row(i).size() >= 3 &&
                               in_range(g.edges_on_cell.row(i), g.n_edges()) &&
                               in_range(g.vertices_on_cell.row(i), g.n_vertices()) &&
-                              in_range(g.cells_on_cell.row(i), g.n_cells()));
+                              in_range_or_none(g.cells_on_cell.row(i), g.n_cells()));
               });
   rules.check("ids on edges are in range", g.n_edges(), 0.0, [&](std::int64_t i) {
-    return unless(in_range(g.cells_on_edge[at(i)], g.n_cells()) &&
+    const auto [first, second] = g.cells_on_edge[at(i)];
+    return unless(first >= 0 && in_range_or_none(std::array{first, second}, g.n_cells()) &&
                   in_range(g.vertices_on_edge[at(i)], g.n_vertices()) &&
                   in_range(g.edges_on_edge.row(i), g.n_edges()));
   });
   rules.check("ids on vertices are in range", g.n_vertices(), 0.0, [&](std::int64_t i) {
-    return unless(in_range(g.cells_on_vertex[at(i)], g.n_cells()) &&
-                  in_range(g.edges_on_vertex[at(i)], g.n_edges()));
+    return unless(in_range_or_none(g.cells_on_vertex[at(i)], g.n_cells()) &&
+                  in_range_or_none(g.edges_on_vertex[at(i)], g.n_edges()) &&
+                  borders_agree(g.cells_on_vertex[at(i)], g.edges_on_vertex[at(i)]));
   });
 }
 
@@ -143,6 +126,7 @@ bool vertex_lists_agree(const Grid& g, std::int64_t i) {
   const auto& cells = g.cells_on_vertex[at(i)];
   const auto& edges = g.edges_on_vertex[at(i)];
   for (std::size_t j = 0; j < 3; ++j) {
+    if (edges[j] == kNone) continue;
     const auto& ends = g.cells_on_edge[at(edges[j])];
     const auto& through = g.vertices_on_edge[at(edges[j])];
     const std::size_t side = ends[0] == cells[j] ? 0 : 1;
@@ -157,6 +141,7 @@ bool edge_list_agrees(const Grid& g, std::int64_t i) {
   const auto row = g.edges_on_edge.row(i);
   std::size_t next = 0;
   for (const Index cell : g.cells_on_edge[at(i)]) {
+    if (cell == kNone) continue;
     const auto around = g.edges_on_cell.row(cell);
     const auto here = std::find(around.begin(), around.end(), static_cast<Index>(i));
     if (here == around.end()) return false;
@@ -175,7 +160,8 @@ void check_order(const Grid& g, Rules& rules) {
               [&](std::int64_t i) { return unless(vertex_lists_agree(g, i)); });
   rules.check("an edge runs from its lower to its higher cell", g.n_edges(), 0.0,
               [&](std::int64_t i) {
-                return unless(g.cells_on_edge[at(i)][0] < g.cells_on_edge[at(i)][1]);
+                const auto [first, second] = g.cells_on_edge[at(i)];
+                return unless(second == kNone || first < second);
               });
   rules.check("edges on edges run around the first cell, then the second", g.n_edges(), 0.0,
               [&](std::int64_t i) { return unless(edge_list_agrees(g, i)); });
@@ -200,6 +186,7 @@ void check_positions(const Grid& g, const char* rule, std::span<const Vec3> posi
 double radius_spread(const Grid& g, std::int64_t i) {
   double low = 1e300, high = 0.0;
   for (const Index cell : g.cells_on_vertex[at(i)]) {
+    if (cell == kNone) continue;
     const double r = (g.cell_position[at(cell)] - g.vertex_position[at(i)]).norm();
     low = std::min(low, r);
     high = std::max(high, r);
@@ -207,43 +194,53 @@ double radius_spread(const Grid& g, std::int64_t i) {
   return (high - low) / high;
 }
 
-// How far the edge position is off the two planes, against the lengths of the edge.
-double crossing_error(const Grid& g, std::int64_t i) {
+bool is_border(const Grid& g, std::int64_t edge) { return g.cells_on_edge[at(edge)][1] == kNone; }
+
+// From cell [0] to cell [1]; at a border where that would be, twice as far as the edge.
+Vec3 across_edge(const Grid& g, std::int64_t i) {
   const auto [c, d] = g.cells_on_edge[at(i)];
+  const Vec3& from = g.cell_position[at(c)];
+  return d == kNone ? Vec3(2.0 * (g.edge_position[at(i)] - from))
+                    : Vec3(g.cell_position[at(d)] - from);
+}
+
+Vec3 along_edge(const Grid& g, std::int64_t i) {
   const auto [v, w] = g.vertices_on_edge[at(i)];
+  return g.vertex_position[at(w)] - g.vertex_position[at(v)];
+}
+
+// How far the edge position is off the two planes, against the lengths of the edge. At a border
+// the plane of the cells is not known.
+double crossing_error(const Grid& g, std::int64_t i) {
   const Vec3& e = g.edge_position[at(i)];
-  const auto off_plane = [&](const Vec3& a, const Vec3& b) {
-    const Vec3 normal = a.cross(b - a);
+  const auto off_plane = [&](const Vec3& a, const Vec3& ab) {
+    const Vec3 normal = a.cross(ab);
     return normal.squaredNorm() > 0.0 ? std::abs(normal.dot(e - a)) / normal.norm() : 0.0;
   };
-  const Vec3 &a = g.cell_position[at(c)], &b = g.cell_position[at(d)];
-  const Vec3 &p = g.vertex_position[at(v)], &q = g.vertex_position[at(w)];
+  const Vec3& a = g.cell_position[at(g.cells_on_edge[at(i)][0])];
+  const Vec3& p = g.vertex_position[at(g.vertices_on_edge[at(i)][0])];
+  const Vec3 ab = across_edge(g, i), pq = along_edge(g, i);
   // The plane of two nearly equal vertices is known only to rounding over their distance.
-  const double blur = 1e-15 / std::max((q - p).norm(), 1e-15);
-  return std::max(off_plane(a, b), std::max(0.0, off_plane(p, q) - blur)) / (b - a).norm();
+  const double blur = 1e-15 / std::max(pq.norm(), 1e-15);
+  const double off_cells = is_border(g, i) ? 0.0 : off_plane(a, ab);
+  return std::max(off_cells, std::max(0.0, off_plane(p, pq) - blur)) / ab.norm();
 }
 
 // Vertex [1] lies to the left of the way from cell [0] to cell [1].
 bool turns_left(const Grid& g, std::int64_t i) {
-  const auto [c, d] = g.cells_on_edge[at(i)];
-  const auto [v, w] = g.vertices_on_edge[at(i)];
-  const Vec3 along = g.cell_position[at(d)] - g.cell_position[at(c)];
-  const Vec3 across = g.vertex_position[at(w)] - g.vertex_position[at(v)];
-  return along.cross(across).dot(g.surface.normal(g.edge_position[at(i)])) >= 0.0;
+  return across_edge(g, i).cross(along_edge(g, i)).dot(g.surface.normal(g.edge_position[at(i)])) >=
+         0.0;
 }
 
 double angle_error(const Grid& g, std::int64_t i) {
-  const auto [c, d] = g.cells_on_edge[at(i)];
-  const auto [v, w] = g.vertices_on_edge[at(i)];
   const Vec3 up = g.surface.normal(g.edge_position[at(i)]);
-  const Vec3 along = g.cell_position[at(d)] - g.cell_position[at(c)];
-  const Vec3 across = g.vertex_position[at(w)] - g.vertex_position[at(v)];
-  if (across.squaredNorm() < 1e-12 * along.squaredNorm()) return 0.0;
-  const Vec3 normal = across.cross(up).normalized();
+  const Vec3 along = along_edge(g, i);
+  if (along.squaredNorm() < 1e-12 * across_edge(g, i).squaredNorm()) return 0.0;
+  const Vec3 normal = along.cross(up).normalized();
   const Vec3 east = Vec3(-up.y(), up.x(), 0.0).normalized();
   const auto angle = elementary::sincos(g.edge_angle_rad[at(i)]);
   if (up.x() == 0.0 && up.y() == 0.0) return 0.0;
-  const double blur = 1e-15 / across.norm();
+  const double blur = 1e-15 / along.norm();
   return std::max(0.0, (angle.cos * east + angle.sin * up.cross(east) - normal).norm() - blur);
 }
 
@@ -268,6 +265,7 @@ void check_geometry(const Grid& g, double tolerance, Rules& rules) {
   };
   rules.check("cell distances are arc lengths", g.n_edges(), tolerance, [&](std::int64_t i) {
     const auto [c, d] = g.cells_on_edge[at(i)];
+    if (d == kNone) return unless(g.cell_distance_m[at(i)] > 0.0);
     return length_error(g.cell_position[at(c)], g.cell_position[at(d)], g.cell_distance_m[at(i)]);
   });
   rules.check("vertex distances are arc lengths", g.n_edges(), tolerance, [&](std::int64_t i) {
@@ -284,6 +282,10 @@ double kite_error(const Grid& g, std::int64_t i) {
   const Vec3& v = g.vertex_position[at(i)];
   double error = 0.0;
   for (std::size_t j = 0; j < 3; ++j) {
+    if (g.cells_on_vertex[at(i)][j] == kNone) {
+      error = worse(error, std::abs(g.kite_area_m2[at(i)][j]));
+      continue;
+    }
     const Vec3& cell = g.cell_position[at(g.cells_on_vertex[at(i)][j])];
     const Vec3& before = g.edge_position[at(g.edges_on_vertex[at(i)][j])];
     const Vec3& after = g.edge_position[at(g.edges_on_vertex[at(i)][(j + 1) % 3])];
@@ -294,7 +296,15 @@ double kite_error(const Grid& g, std::int64_t i) {
   return error / g.triangle_area_m2[at(i)];
 }
 
+bool kites_are_positive(const Grid& g, std::int64_t i) {
+  for (std::size_t j = 0; j < 3; ++j) {
+    if (g.cells_on_vertex[at(i)][j] != kNone && !(g.kite_area_m2[at(i)][j] > 0.0)) return false;
+  }
+  return true;
+}
+
 bool lies_inside(const Grid& g, std::int64_t i) {
+  if (!is_complete(g.cells_on_vertex[at(i)])) return true;  // of no triangle
   const Vec3& v = g.vertex_position[at(i)];
   for (std::size_t j = 0; j < 3; ++j) {
     const Vec3& a = g.cell_position[at(g.cells_on_vertex[at(i)][j])];
@@ -322,10 +332,8 @@ double polygon_error(const Grid& g, std::int64_t i) {
 }
 
 void check_areas(Context& context, const Grid& g, double tolerance, Rules& rules) {
-  rules.check("kites are positive", g.n_vertices(), 0.0, [&](std::int64_t i) {
-    const auto& kites = g.kite_area_m2[at(i)];
-    return unless(kites[0] > 0.0 && kites[1] > 0.0 && kites[2] > 0.0);
-  });
+  rules.check("kites are positive", g.n_vertices(), 0.0,
+              [&](std::int64_t i) { return unless(kites_are_positive(g, i)); });
   rules.check("a vertex lies inside its triangle (well centred)", g.n_vertices(), 0.0,
               [&](std::int64_t i) { return unless(lies_inside(g, i)); });
   rules.check("a kite is the area between vertex, edges and cell", g.n_vertices(), tolerance,
@@ -342,6 +350,7 @@ void check_areas(Context& context, const Grid& g, double tolerance, Rules& rules
   });
   rules.check("the area of a cell is that of its polygon", g.n_cells(), tolerance,
               [&](std::int64_t i) { return polygon_error(g, i); });
+  if (!is_closed(g)) return;
   const double whole = g.surface.area() * g.surface.scale_m() * g.surface.scale_m();
   const auto total = [&](std::span<const double> areas) {
     return parallel::sum(context.exec, static_cast<std::int64_t>(areas.size()), kGrain,
@@ -410,6 +419,7 @@ Flow random_flow(Context& context, const Grid& g) {
 // div_dual(W u) - kite mean of div(u) on a vertex, both times the triangle's area, against the
 // largest outflow of its cells (Thuburn et al. 2009: geostrophic modes stay where they are).
 double divergence_error(const Grid& g, const Flow& flow, std::int64_t i) {
+  if (!is_complete(g.cells_on_vertex[at(i)])) return 0.0;
   double dual = 0.0, primal = 0.0, size = 0.0;
   for (std::size_t j = 0; j < 3; ++j) {
     const Index edge = g.edges_on_vertex[at(i)][j];
@@ -439,9 +449,11 @@ std::vector<BrokenRule> check_grid(Context& context, const Grid& grid, double to
   rules.check("the sizes of the arrays agree", 1, 0.0,
               [&](std::int64_t) { return unless(has_sizes(grid)); });
   if (!rules.all_hold()) return broken;
-  rules.check("cells - edges + vertices = 2", 1, 0.0, [&](std::int64_t) {
-    return std::abs(static_cast<double>(grid.n_cells() - grid.n_edges() + grid.n_vertices() - 2));
-  });
+  if (is_closed(grid)) {
+    rules.check("cells - edges + vertices = 2", 1, 0.0, [&](std::int64_t) {
+      return std::abs(static_cast<double>(grid.n_cells() - grid.n_edges() + grid.n_vertices() - 2));
+    });
+  }
   check_ids(grid, rules);
   if (!rules.all_hold()) return broken;
   check_order(grid, rules);

@@ -20,7 +20,9 @@ struct BrokenRule {
 
 /// Every broken rule, none for a right grid. `tolerance` is relative and for lengths, areas and
 /// angles; 1e-6 suits grids written by the converter of MPAS-Tools. When sizes or ids are wrong
-/// nothing else is looked at. Linear; the same answer for any number of threads.
+/// nothing else is looked at. A grid with a border (kNone in its tables) is judged by what holds
+/// there: sums over the surface and what needs a missing cell are left out. Linear; the same answer
+/// for any number of threads.
 std::vector<BrokenRule> check_grid(Context& context, const Grid& grid, double tolerance = 1e-9);
 
 /// One line, e.g. "kites are positive: 3 broken, ids 17 40 41, worst 2.1e-3".

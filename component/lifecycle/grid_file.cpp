@@ -99,11 +99,7 @@ void read_mpas_into(GridFile& out) {
   const Grid& grid = *out.grid;
   out.surface = grid.surface;
   out.latitude = grid.latitude;
-  const bool is_closed =
-      std::all_of(grid.cells_on_vertex.begin(), grid.cells_on_vertex.end(), [](const auto& cells) {
-        return std::all_of(cells.begin(), cells.end(), [](Index cell) { return cell != kNone; });
-      });
-  if (!is_closed) return;
+  if (!is_closed(grid)) return;
   Array<Vertex> vertices(grid.cell_position.size());
   for (std::size_t i = 0; i < vertices.size(); ++i) {
     set_position(vertices[i], grid.cell_position[i]);

@@ -28,6 +28,12 @@ TEST_CASE("check_grid names the rule and the element that a change breaks") {
       {"sizes", 0, [](Grid& g) { g.edge_angle_rad.pop_back(); }},
       {"ids on edges", 4, [](Grid& g) { g.cells_on_edge[4][1] = 1000; }},
       {"ids on vertices", 6, [](Grid& g) { g.edges_on_vertex[6][2] = kNone; }},
+      {"ids on vertices", 6,
+       [](Grid& g) {
+         g.cells_on_vertex[6] = {kNone, kNone, kNone};
+       }},
+      {"lists of a cell", 3, [](Grid& g) { g.cells_on_cell.row(3)[1] = kNone; }},
+      {"lists of a vertex", 6, [](Grid& g) { g.cells_on_vertex[6][1] = kNone; }},
       {"lists of a cell", 0,
        [](Grid& g) { std::swap(g.edges_on_cell.values[0], g.edges_on_cell.values[1]); }},
       {"lists of a vertex", 9,
