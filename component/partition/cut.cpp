@@ -67,7 +67,7 @@ void pick_local(const Rows& from, const std::vector<Index>& global_id,
                 const std::vector<Index>& local, Array<T>& to) {
   pick(from, global_id, to);
   for (T& row : to) {
-    for (Index& id : row) id = local[at(id)];
+    for (Index& id : row) id = id == kNone ? kNone : local[at(id)];
   }
 }
 
@@ -93,7 +93,12 @@ void pick_rows(const Ragged<T>& from, const std::vector<Index>& global_id,
 }
 
 void localise(const std::vector<Index>& local, Array<Index>& ids) {
-  for (Index& id : ids) id = local[at(id)];
+  for (Index& id : ids) id = id == kNone ? kNone : local[at(id)];
+}
+
+/// The first cell of a vertex that is there.
+Index first_cell(const std::array<Index, 3>& cells) {
+  return cells[0] != kNone ? cells[0] : cells[1] != kNone ? cells[1] : cells[2];
 }
 
 }  // namespace
@@ -169,7 +174,7 @@ void Cutter::Impl::grow(Index part) {
     const std::size_t begin = layer_begin[layer_begin.size() - 2], end = layer_begin.back();
     for (std::size_t i = begin; i < end; ++i) {
       for (const Index next : grid.cells_on_cell.row(region[i])) {
-        if (slot[at(next)] != kNone) continue;
+        if (next == kNone || slot[at(next)] != kNone) continue;
         slot[at(next)] = 0;
         region.push_back(next);
       }
@@ -237,7 +242,7 @@ void Cutter::Impl::reach(Index neighbour, std::span<const Index> sources) {
     const std::size_t end = reached.size();
     for (; begin < end; ++begin) {
       for (const Index next : grid.cells_on_cell.row(region[at(reached[begin])])) {
-        const Index place = slot[at(next)];
+        const Index place = next == kNone ? kNone : slot[at(next)];
         if (place == kNone || reached_by[at(place)] == neighbour) continue;
         reached_by[at(place)] = neighbour;
         reached.push_back(place);
@@ -358,7 +363,7 @@ Subgrid Cutter::cut(Index part) {
       [&](Index cell) { return grid.edges_on_cell.row(cell); }, impl_->local_edge);
   out.vertices = impl_->number(
       part, grid.n_vertices(),
-      [&](Index vertex) { return owner(grid.cells_on_vertex[at(vertex)][0]); },
+      [&](Index vertex) { return owner(first_cell(grid.cells_on_vertex[at(vertex)])); },
       [&](Index cell) { return grid.vertices_on_cell.row(cell); }, impl_->local_vertex);
   impl_->find_sends(out);
   impl_->fill_cells(out.cells.global_id, out.arrays);

@@ -32,8 +32,8 @@ struct LocalEntities {
 };
 
 /// The arrays of Grid for local entities, with local ids; rows in the whole grid's order, kNone
-/// where an entity is beyond the halo. The three tables around a cell share their offsets, and so
-/// do an edge's neighbours and weights.
+/// where an entity is beyond the halo or the grid's border. The three tables around a cell share
+/// their offsets, and so do an edge's neighbours and weights.
 struct LocalArrays {
   Array<Vec3> cell_position, edge_position, vertex_position;
   Array<LonLat> cell_lon_lat, edge_lon_lat, vertex_lon_lat;
@@ -52,7 +52,7 @@ struct LocalArrays {
 /// Cells: layer 0 is owned, layer l is l steps away from there. Edges and vertices: layer 0 is
 /// owned, layer 1 the rest of those on owned cells, layer l + 1 the rest of those on cells of
 /// layer l. An edge belongs to the owner of its first cell (cells_on_edge[e][0]), a vertex to that
-/// of its first cell.
+/// of its first cell that is there.
 struct Subgrid {
   Index part = 0;
   Index n_parts = 1;

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "domain/ocean.hpp"
+
+#include <algorithm>
+
+#include "core/error.hpp"
+#include "domain/bodies.hpp"
+#include "domain/transects.hpp"
+#include "sizing/analytic.hpp"
+
+namespace delos::domain {
+namespace {
+
+constexpr std::int64_t kGrain = 4096;  // cells; tenths of a millisecond
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+struct Chain {
+  const LonLatLine& line;
+  std::vector<Index> cells;
+};
+
+std::vector<Chain> chains_of(const Grid& grid, const std::vector<LonLatLine>& lines) {
+  std::vector<Chain> out;
+  out.reserve(lines.size());
+  for (const LonLatLine& line : lines) out.push_back({line, cells_along(grid, line)});
+  return out;
+}
+
+std::vector<LineReport> set_cells(const std::vector<Chain>& chains, bool is_sea, Mask& sea) {
+  std::vector<LineReport> reports;
+  for (const Chain& chain : chains) {
+    LineReport report{chain.line.name, static_cast<std::int64_t>(chain.cells.size()), 0, false};
+    for (const Index cell : chain.cells) {
+      report.n_changed += (sea[at(cell)] != 0) != is_sea;
+      sea[at(cell)] = is_sea;
+    }
+    reports.push_back(std::move(report));
+  }
+  return reports;
+}
+
+void judge(const std::vector<Chain>& chains, bool is_sea, const Mask& sea,
+           std::vector<LineReport>& reports) {
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    reports[i].holds = std::all_of(chains[i].cells.begin(), chains[i].cells.end(),
+                                   [&](Index cell) { return (sea[at(cell)] != 0) == is_sea; });
+  }
+}
+
+Index named_body(const Grid& grid, const Bodies& bodies, const LonLat& point) {
+  const Index cell = cell_at(grid, grid.surface.point(point, grid.latitude));
+  const Index body = bodies.of_cell[at(cell)];
+  DELOS_CHECK(
+      body != kNone, ErrorKind::input, "the body of water at lon ", point.lon_rad * kDegPerRad,
+      ", lat ", point.lat_rad * kDegPerRad, " deg is not there: cell ", cell,
+      " is land. Give a point in open water, or lower the wet share that makes a cell sea.");
+  return body;
+}
+
+std::vector<char> bodies_kept(const Grid& grid, const Bodies& bodies, const OceanOptions& options) {
+  std::vector<char> is_kept(bodies.bodies.size(), options.bodies == BodyRule::all ? 1 : 0);
+  if (options.bodies == BodyRule::largest) is_kept[at(largest_body(bodies))] = 1;
+  if (options.bodies == BodyRule::named) {
+    for (const LonLat& point : options.body_points) {
+      is_kept[at(named_body(grid, bodies, point))] = 1;
+    }
+  }
+  return is_kept;
+}
+
+void keep_bodies(parallel::Executor& exec, const Grid& grid, const OceanOptions& options, Mask& sea,
+                 OceanReport& report) {
+  const Bodies bodies = find_bodies(grid, sea);
+  DELOS_CHECK(!bodies.bodies.empty(), ErrorKind::input,
+              "no cell of the grid is sea: check the sign of the elevation and the wet share that "
+              "makes a cell sea.");
+  const std::vector<char> is_kept = bodies_kept(grid, bodies, options);
+  parallel::for_index(exec, grid.n_cells(), kGrain, [&](std::int64_t cell) {
+    const Index body = bodies.of_cell[at(cell)];
+    sea[at(cell)] = body != kNone && is_kept[at(body)] != 0;
+  });
+  report.n_bodies = static_cast<std::int64_t>(bodies.bodies.size());
+  for (std::size_t i = 0; i < is_kept.size(); ++i) {
+    if (is_kept[i] != 0) {
+      ++report.n_bodies_kept;
+    } else {
+      report.n_cells_of_other_bodies += bodies.bodies[i].n_cells;
+    }
+  }
+}
+
+void count_elements(parallel::Executor& exec, const Grid& ocean, OceanReport& report) {
+  report.n_cells = ocean.n_cells();
+  report.n_edges = ocean.n_edges();
+  report.n_vertices = ocean.n_vertices();
+  report.n_border_edges = std::count_if(ocean.cells_on_edge.begin(), ocean.cells_on_edge.end(),
+                                        [](const auto& cells) { return cells[1] == kNone; });
+  report.area_m2 = parallel::sum(exec, ocean.n_cells(), kGrain,
+                                 [&](std::int64_t cell) { return ocean.cell_area_m2[at(cell)]; });
+}
+
+}  // namespace
+
+Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<double>& wet_fraction,
+                   const OceanOptions& options) {
+  Ocean out;
+  OceanReport& report = out.report;
+  const std::vector<Chain> passages = chains_of(grid, options.passages);
+  const std::vector<Chain> blockages = chains_of(grid, options.blockages);
+  Mask sea = wet_cells(exec, wet_fraction, options.least_wet);
+  report.blockages = set_cells(blockages, false, sea);
+  report.passages = set_cells(passages, true, sea);
+  Mask is_passage(sea.size(), 0);
+  set_cells(passages, true, is_passage);
+  report.pruned = prune(exec, grid, options.prune, is_passage, sea);
+  keep_bodies(exec, grid, options, sea, report);
+  judge(passages, true, sea, report.passages);
+  judge(blockages, false, sea, report.blockages);
+  out.culled = cull(exec, grid, order_cells(exec, grid, sea, options.order, options.n_parts));
+  count_elements(exec, out.culled.grid, report);
+  return out;
+}
+
+LatLonField elevation_of(parallel::Executor& exec, const PolygonSet& land, double resolution_rad) {
+  DELOS_CHECK(!land.rings.empty(), ErrorKind::input, land.source,
+              " holds no polygon: check the file and the feature's name");
+  LatLonField field = unset_table(resolution_rad);
+  const std::vector<char> inside = inside_polygons(exec, land, field);
+  parallel::for_index(exec, static_cast<std::int64_t>(inside.size()), kGrain, [&](std::int64_t i) {
+    field.values[at(i)] = inside[at(i)] != 0 ? 1.0 : -1.0;
+  });
+  return field;
+}
+
+}  // namespace delos::domain
