@@ -64,7 +64,8 @@ class VtuFile {
     const Vec3 radii_m = surface.radii() * surface.scale_m();
     add<double>("FieldData", "delos_radii_m", 3,
                 [radii_m](std::int64_t i) { return radii_m[static_cast<Eigen::Index>(i)]; });
-    add<std::int32_t>("FieldData", "delos_latitude", 1, [latitude](std::int64_t) {
+    // Of eight bytes: with four meshio 7.0 takes the offset of one array for that of another.
+    add<std::int64_t>("FieldData", "delos_latitude", 1, [latitude](std::int64_t) {
       return latitude == LatitudeKind::geodetic ? 0 : latitude == LatitudeKind::geocentric ? 1 : 2;
     });
   }

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 #include <sstream>
 #include <string>
@@ -14,6 +13,7 @@
 #include "io/mpas.hpp"
 #include "io/scrip.hpp"
 #include "io/ugrid.hpp"
+#include "support/run_command.hpp"
 #include "support/sample_grids.hpp"
 #include "support/temporary_folder.hpp"
 
@@ -22,27 +22,11 @@ using delos::LatitudeKind;
 using delos::Mesh;
 using delos::SphereMap;
 using delos::Vec3;
+using delos::testing::Outcome;
+using delos::testing::run;
 using delos::testing::TemporaryFolder;
 
 namespace {
-
-struct Outcome {
-  int status;
-  std::string output;
-  bool says(const std::string& part) const { return output.find(part) != std::string::npos; }
-};
-
-Outcome run(const std::string& command) {
-  Outcome outcome{-1, ""};
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-    outcome.output += buffer.data();
-  }
-  outcome.status = ::pclose(pipe);
-  return outcome;
-}
 
 /// Command of a checker; empty, with a message, when it is not there.
 std::string checker(const std::string& script) {

@@ -2,37 +2,21 @@
 // First-order transfer beside CDO's conservative remapping (remapcon) of the same cells.
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cmath>
-#include <cstdio>
 #include <string>
 
 #include "io/netcdf.hpp"
 #include "io/ugrid.hpp"
 #include "remap/transfer.hpp"
+#include "support/run_command.hpp"
 #include "support/sample_fields.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace delos;
+using delos::testing::Outcome;
+using delos::testing::run;
 
 namespace {
-
-struct Outcome {
-  int status;
-  std::string output;
-};
-
-Outcome run(const std::string& command) {
-  Outcome outcome{-1, ""};
-  FILE* pipe = ::popen((command + " 2>&1").c_str(), "r");
-  if (pipe == nullptr) return outcome;
-  std::array<char, 4096> buffer{};
-  while (std::fgets(buffer.data(), static_cast<int>(buffer.size()), pipe) != nullptr) {
-    outcome.output += buffer.data();
-  }
-  outcome.status = ::pclose(pipe);
-  return outcome;
-}
 
 bool has_cdo() {
   if (run("command -v cdo").status == 0) return true;
