@@ -5,6 +5,7 @@
 #include "app/commands.hpp"
 #include "app/exit_status.hpp"
 #include "app/loaded_grid.hpp"
+#include "dual/edge_angles.hpp"
 #include "dual/validate.hpp"
 #include "lifecycle/require.hpp"
 #include "metrics/open_mesh.hpp"
@@ -60,7 +61,24 @@ Requirements requirements_of(const Arguments& arguments, const FileOrigin& origi
   return read_require(root).bounds;
 }
 
-std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded) {
+/// What is no defect but worth knowing.
+using Notes = std::vector<std::string>;
+
+/// A published definition beside ours: said, and no defect.
+bool is_other_definition(Context& context, const Grid& grid, const BrokenRule& broken,
+                         double tolerance, Notes& notes) {
+  if (broken.rule != kEdgeAngleRule) return false;
+  const auto found = angles_by_latitude(context, grid, tolerance);
+  if (!found) return false;
+  notes.push_back(
+      text("the angles of edges are arccos(rise in latitude / length), as the converter "
+           "of MPAS-Tools has them: up to ",
+           found->worst_rad, " rad (edge ", found->worst_edge + 1,
+           ") from the direction of the normal."));
+  return true;
+}
+
+std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded, Notes& notes) {
   std::vector<std::string> out;
   const GridFile& file = loaded.file;
   if (file.mesh) {
@@ -78,6 +96,7 @@ std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded) 
     tolerance = std::max(tolerance, rounding_tolerance(file.surface, loaded.report.quality));
   }
   for (const BrokenRule& rule : check_grid(context, loaded.grid, tolerance)) {
+    if (is_other_definition(context, loaded.grid, rule, tolerance, notes)) continue;
     out.push_back(to_string(rule));
   }
   return out;
@@ -128,7 +147,8 @@ int run_check(const Arguments& arguments, const std::atomic<bool>& cancel) {
       continue;
     }
     LoadedGrid loaded = load_grid(context, std::move(file));
-    std::vector<std::string> defects = defects_of(context, loaded);
+    Notes notes;
+    std::vector<std::string> defects = defects_of(context, loaded, notes);
     const Requirements required = requirements_of(arguments, loaded.file.origin, defects);
     std::vector<std::string>& missed = loaded.report.missed;
     if (loaded.file.mesh) {
@@ -136,6 +156,7 @@ int run_check(const Arguments& arguments, const std::atomic<bool>& cancel) {
       std::printf("%s", report_text(loaded.report).c_str());
     }
     for (const std::string& defect : defects) std::printf("defect: %s\n", defect.c_str());
+    for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
     for (const std::string& sentence : missed) std::printf("missed: %s\n", sentence.c_str());
     std::printf("%s: %s (%s, %lld cells%s%s)\n\n", path.c_str(),
                 verdict(defects.size(), missed.size()).c_str(), loaded.file.origin.format.c_str(),

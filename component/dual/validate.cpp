@@ -7,6 +7,7 @@
 
 #include "core/elementary.hpp"
 #include "core/hash.hpp"
+#include "dual/edge_angles.hpp"
 #include "dual/rules.hpp"
 
 namespace delos {
@@ -257,7 +258,7 @@ void check_geometry(const Grid& g, double tolerance, Rules& rules) {
               [&](std::int64_t i) { return crossing_error(g, i); });
   rules.check("vertices on an edge turn left of its normal", g.n_edges(), 0.0,
               [&](std::int64_t i) { return unless(turns_left(g, i)); });
-  rules.check("the angle of an edge is that of its normal from east", g.n_edges(), tolerance,
+  rules.check(kEdgeAngleRule, g.n_edges(), tolerance,
               [&](std::int64_t i) { return angle_error(g, i); });
   const auto length_error = [&](const Vec3& a, const Vec3& b, double length_m) {
     const double arc_m = g.surface.scale_m() * g.surface.arc_length(a, b);

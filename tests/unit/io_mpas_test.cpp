@@ -8,6 +8,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "dual/edge_angles.hpp"
+#include "dual/validate.hpp"
 #include "io/part_file.hpp"
 #include "io/ugrid.hpp"
 #include "support/expect_error.hpp"
@@ -364,6 +366,16 @@ TEST_CASE("a published mesh is read, and its diagnostics are what this writer ma
   CHECK(grid.n_cells() == 162);
   CHECK(grid.n_edges() == 480);
   CHECK(grid.n_vertices() == 320);
+  // Sound but for angles of another definition.
+  delos::parallel::Executor exec(1);
+  delos::Monitor monitor;
+  delos::Context context{exec, monitor};
+  const auto broken = delos::check_grid(context, grid, 1e-6);
+  REQUIRE(broken.size() == 1);
+  CHECK(broken[0].rule == delos::kEdgeAngleRule);
+  const auto by_latitude = delos::angles_by_latitude(context, grid, 1e-14);
+  REQUIRE(by_latitude);
+  CHECK(by_latitude->worst_rad == doctest::Approx(0.0231759).epsilon(1e-5));
   const TemporaryFolder folder;
   delos::write_mpas(folder.file("again.nc"), grid, {});
   check_same_tables(delos::read_mpas(folder.file("again.nc")), grid);
