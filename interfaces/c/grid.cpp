@@ -106,31 +106,7 @@ DELOS_VECTOR(centre_m)
       hand_out(grid->grid->name(), values, size);                                     \
     });                                                                               \
   }
-DELOS_ARRAY(cell_position, double)
-DELOS_ARRAY(edge_position, double)
-DELOS_ARRAY(vertex_position, double)
-DELOS_ARRAY(cell_lon_lat, double)
-DELOS_ARRAY(edge_lon_lat, double)
-DELOS_ARRAY(vertex_lon_lat, double)
-DELOS_ARRAY(cell_offsets, int64_t)
-DELOS_ARRAY(edges_on_cell, int32_t)
-DELOS_ARRAY(vertices_on_cell, int32_t)
-DELOS_ARRAY(cells_on_cell, int32_t)
-DELOS_ARRAY(cells_on_edge, int32_t)
-DELOS_ARRAY(vertices_on_edge, int32_t)
-DELOS_ARRAY(cells_on_vertex, int32_t)
-DELOS_ARRAY(edges_on_vertex, int32_t)
-DELOS_ARRAY(edge_offsets, int64_t)
-DELOS_ARRAY(edges_on_edge, int32_t)
-DELOS_ARRAY(weights_on_edge, double)
-DELOS_ARRAY(cell_area_m2, double)
-DELOS_ARRAY(cell_spacing_m, double)
-DELOS_ARRAY(edge_spacing_m, double)
-DELOS_ARRAY(triangle_area_m2, double)
-DELOS_ARRAY(kite_area_m2, double)
-DELOS_ARRAY(cell_distance_m, double)
-DELOS_ARRAY(vertex_distance_m, double)
-DELOS_ARRAY(edge_angle_rad, double)
+#include "arrays.inc"
 #undef DELOS_ARRAY
 
 int delos_grid_quality(const delos_grid* grid, delos_quality* quality) {

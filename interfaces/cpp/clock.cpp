@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "clock_access.hpp"
+#include "time/state.hpp"
 #include "time_access.hpp"
 #include "translate.hpp"
 
@@ -93,5 +94,10 @@ Alarm Clock::alarm(int id) const {
   return {impl_, id};
 }
 std::vector<int> Clock::ringing_alarms() const { return impl_->clock.ringing_alarms(); }
+
+std::vector<std::int64_t> Clock::state() const { return integers_of(impl_->clock.state()); }
+void Clock::restore(const std::vector<std::int64_t>& state) {
+  translated([&] { impl_->clock = delos::Clock::restored(clock_state_of(state)); });
+}
 
 }  // namespace delos::api

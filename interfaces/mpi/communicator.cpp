@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <iterator>
 #include <limits>
 #include <new>
 #include <thread>
@@ -129,15 +130,35 @@ void Communicator::settle(const std::exception_ptr& failure) const {
 
 void Communicator::broadcast(std::string& text, int root) const {
   auto size = static_cast<std::uint64_t>(text.size());
-  MPI_Request request = MPI_REQUEST_NULL;
-  check(MPI_Ibcast(&size, 1, MPI_UINT64_T, root, own_, &request), "MPI_Ibcast");
-  wait_asleep(request);
+  broadcast(std::span(&size, 1), root);
   text.resize(static_cast<std::size_t>(size));
-  for (std::size_t begin = 0; begin < text.size(); begin += kLongestMessage) {
-    const auto n = static_cast<int>(std::min(kLongestMessage, text.size() - begin));
-    check(MPI_Ibcast(text.data() + begin, n, MPI_CHAR, root, own_, &request), "MPI_Ibcast");
+  broadcast(std::span(text), root);
+}
+
+void Communicator::broadcast_bytes(std::span<std::byte> bytes, int root) const {
+  for (std::size_t begin = 0; begin < bytes.size(); begin += kLongestMessage) {
+    const auto n = static_cast<int>(std::min(kLongestMessage, bytes.size() - begin));
+    MPI_Request request = MPI_REQUEST_NULL;
+    check(MPI_Ibcast(bytes.data() + begin, n, MPI_BYTE, root, own_, &request), "MPI_Ibcast");
     wait_asleep(request);
   }
+}
+
+Communicator::Range Communicator::range(std::span<const std::int64_t> mine) const {
+  // One reduction for both: the least of all complements is the complement of the greatest.
+  std::vector<std::int64_t> both(mine.begin(), mine.end());
+  for (const std::int64_t number : mine) both.push_back(~number);
+  std::vector<std::int64_t> least(both.size());
+  MPI_Request request = MPI_REQUEST_NULL;
+  check(MPI_Iallreduce(both.data(), least.data(), static_cast<int>(both.size()), MPI_INT64_T,
+                       MPI_MIN, own_, &request),
+        "MPI_Iallreduce");
+  wait_asleep(request);
+  const auto middle = least.begin() + static_cast<std::ptrdiff_t>(mine.size());
+  Range out{{least.begin(), middle}, {}};
+  std::transform(middle, least.end(), std::back_inserter(out.greatest),
+                 [](std::int64_t number) { return ~number; });
+  return out;
 }
 
 void Communicator::send_bytes(std::span<const std::byte> bytes, int to) const {

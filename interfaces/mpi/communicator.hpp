@@ -5,9 +5,11 @@
 #include <mpi.h>
 
 #include <cstddef>
+#include <cstdint>
 #include <exception>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "delos/error.hpp"
 
@@ -49,6 +51,19 @@ class Communicator {
 
   /// From `root` to all, collective; the others sleep.
   void broadcast(std::string& text, int root) const;
+  /// As many on all.
+  template <class Values>
+  void broadcast(Values&& values, int root) const {
+    broadcast_bytes(std::as_writable_bytes(std::span(values)), root);
+  }
+
+  /// The least and the greatest that any process gives, for each of as many numbers on all.
+  /// Collective; who comes early sleeps.
+  struct Range {
+    std::vector<std::int64_t> least, greatest;
+    bool is_same_everywhere() const { return least == greatest; }
+  };
+  Range range(std::span<const std::int64_t> mine) const;
   /// An array of plain values to or from one process, in messages that MPI's int can count. The
   /// caller sleeps.
   template <class Values>
@@ -61,6 +76,7 @@ class Communicator {
   }
 
  private:
+  void broadcast_bytes(std::span<std::byte> bytes, int root) const;
   void send_bytes(std::span<const std::byte> bytes, int to) const;
   void receive_bytes(std::span<std::byte> bytes, int from) const;
 

@@ -102,6 +102,12 @@ class DELOS_API Clock {
   /// Ids in ascending order.
   std::vector<int> ringing_alarms() const;
 
+  /// All of it as plain integers, the alarms too: for other processes.
+  std::vector<std::int64_t> state() const;
+  /// Becomes the clock that gave this state(), exactly; handles of alarms follow by id.
+  /// Error(input) for integers that no clock gives.
+  void restore(const std::vector<std::int64_t>& state);
+
  private:
   friend struct ClockAccess;
   std::shared_ptr<ClockImpl> impl_;

@@ -23,6 +23,8 @@
 
 namespace delos::mpi {
 
+struct Distribution;
+
 struct Options {
   /// Threads and callbacks of the generating process. MPI started for a single thread
   /// (MPI_THREAD_SINGLE) gives it one, and a warning.
@@ -74,8 +76,7 @@ class DELOS_API DistributedGrid {
                                    Location location, int n_components = 1) const;
 
  private:
-  friend DistributedGrid distribute(MPI_Comm communicator, const std::function<Grid()>& make,
-                                    const Options& options);
+  friend struct Distribution;
   struct Impl;
   explicit DistributedGrid(std::shared_ptr<const Impl> impl);
   template <class Number>
