@@ -13,8 +13,11 @@
 #include <stdexcept>
 #include <thread>
 
+#include "mpi_support.hpp"
+
 using delos::Location;
 using delos::mpi::DistributedGrid;
+using namespace mpi_support;
 
 namespace {
 
@@ -23,17 +26,6 @@ constexpr char kSmall[] =
     "refine: {tile_vertices: 500}\n";
 constexpr Location kLocations[] = {Location::cell, Location::edge, Location::vertex};
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-
-int rank() {
-  int out = 0;
-  MPI_Comm_rank(MPI_COMM_WORLD, &out);
-  return out;
-}
-int n_ranks() {
-  int out = 1;
-  MPI_Comm_size(MPI_COMM_WORLD, &out);
-  return out;
-}
 
 delos::Config small() { return delos::Config::from_text(kSmall); }
 
@@ -47,30 +39,6 @@ delos::mpi::Options options(int halo_layers = 1, int root = 0) {
 
 DistributedGrid small_grid(const delos::mpi::Options& how = options()) {
   return delos::mpi::generate(MPI_COMM_WORLD, small, how);
-}
-
-/// The kind and text of what action() throws, e.g. "config: ...".
-template <class Action>
-std::string thrown(Action&& action) {
-  try {
-    action();
-  } catch (const delos::Error& error) {
-    return std::string(delos::to_string(error.kind())) + ": " + error.what();
-  } catch (const std::exception& error) {
-    return std::string("other: ") + error.what();
-  }
-  return "nothing";
-}
-
-bool begins(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
-
-/// Whether all processes have the same text.
-bool is_same_everywhere(const std::string& text) {
-  char mine[1000] = {}, first[1000] = {};
-  text.copy(mine, sizeof mine - 1);
-  std::copy(std::begin(mine), std::end(mine), std::begin(first));
-  MPI_Bcast(first, sizeof first, MPI_CHAR, 0, MPI_COMM_WORLD);
-  return std::equal(std::begin(mine), std::end(mine), std::begin(first));
 }
 
 /// A number that says which entity and which component it is of.
