@@ -219,6 +219,7 @@ Remeshed LocalRemesh::run(const OldMesh& old) {
   report_.relax = relax_part(context_, target, options_.relax, part_, mesh_);
   RelaxOptions again = options_.relax;
   again.spring_rounds = 0;
+  again.centroidal_rounds = 0;
   for (;;) {
     part_.triangles = triangles_of_free(context_.exec, mesh_, part_.is_free);
     const Missed missed = find_missed(context_.exec, input_.spacing, mesh_, part_);

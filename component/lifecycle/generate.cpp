@@ -45,6 +45,7 @@ ReportSection refine_section(const RefineReport& report) {
 ReportSection relax_section(const RelaxReport& report) {
   return {"relax",
           {{"spring_rounds", static_cast<std::int64_t>(report.spring_rounds)},
+           {"centroidal_rounds", static_cast<std::int64_t>(report.centroidal_rounds)},
            {"polish_rounds", static_cast<std::int64_t>(report.polish_rounds)},
            {"n_flips", report.n_flips},
            {"n_removed", report.n_removed},
@@ -90,6 +91,10 @@ Mesh triangulate(Context& context, const Settings& settings, const SpacingField&
         build_baseline(context, settings.generator, settings.surface, settings.subdivisions);
     context.monitor.advance(mesh.n_vertices());
     spacing.evaluate(context.exec, mesh.vertices);
+    if (settings.relax.centroidal_rounds > 0) {
+      sections.push_back(
+          relax_section(relax(context, settings.surface, spacing, settings.relax, mesh)));
+    }
     return mesh;
   }
   RefineReport refined;

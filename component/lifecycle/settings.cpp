@@ -57,12 +57,17 @@ void read_surface(MapReader keys, Settings& out) {
       kLatitudes[keys.choice("latitude", {"geodetic", "geocentric", "parametric"}, "geodetic")];
 }
 
+int read_rounds(MapReader& keys, const char* key, int fallback) {
+  constexpr int kMaxRounds = 100'000;
+  return static_cast<int>(keys.integer(key, 0, kMaxRounds, text(fallback).c_str()));
+}
+
 /// Baselines have one spacing everywhere, from `subdivisions` or `spacing`.
 void read_baseline(MapReader& root, const char* generator, Settings& out) {
-  for (const char* const key : {"sizing", "bathymetry", "refine", "relax", "remesh"}) {
+  for (const char* const key : {"sizing", "bathymetry", "refine", "remesh"}) {
     if (root.has(key)) {
       root.fail(key, "is not used by generator: ", generator,
-                ", which takes `subdivisions` or `spacing` only.");
+                ", which takes `subdivisions` or `spacing`, and relax.centroidal_rounds.");
     }
   }
   if (root.has("subdivisions") == root.has("spacing")) {
@@ -75,6 +80,12 @@ void read_baseline(MapReader& root, const char* generator, Settings& out) {
   } else {
     const double spacing_m = root.quantity("spacing", Dimension::length, Bounds::positive());
     out.subdivisions = baseline_subdivisions(out.generator, out.surface, spacing_m);
+  }
+  // Their points are what they are, but for the move to the centroids.
+  out.relax.spring_rounds = out.relax.polish_rounds = 0;
+  if (root.has("relax")) {
+    MapReader relax = root.map("relax", {"centroidal_rounds"});
+    out.relax.centroidal_rounds = read_rounds(relax, "centroidal_rounds", 0);
   }
   SourceSettings source;
   source.source.source =
@@ -106,11 +117,11 @@ RefineOptions read_refine(MapReader keys) {
 
 RelaxOptions read_relax(MapReader keys) {
   RelaxOptions out;
-  constexpr int kMaxRounds = 100'000;
   const auto rounds = [&](const char* key, int fallback) {
-    return static_cast<int>(keys.integer(key, 0, kMaxRounds, text(fallback).c_str()));
+    return read_rounds(keys, key, fallback);
   };
   out.spring_rounds = rounds("spring_rounds", out.spring_rounds);
+  out.centroidal_rounds = rounds("centroidal_rounds", out.centroidal_rounds);
   out.polish_rounds = rounds("polish_rounds", out.polish_rounds);
   // At 1 only equilateral triangles would do.
   out.target_quality = keys.quantity("target_quality", Dimension::none, Bounds::between(0.5, 0.99),
@@ -230,8 +241,8 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
     }
     out.sizing = read_sizing(root, out.surface.scale_m(), out.latitude);
     out.refine = read_refine(root.map("refine", {"radius_edge", "size_ratio", "tile_vertices"}));
-    out.relax = read_relax(
-        root.map("relax", {"spring_rounds", "polish_rounds", "target_quality", "repair"}));
+    out.relax = read_relax(root.map("relax", {"spring_rounds", "centroidal_rounds", "polish_rounds",
+                                              "target_quality", "repair"}));
     out.remesh = read_remesh(root, out.surface.scale_m());
     if (out.remesh && out.sizing.recipe.combine.rule == CombineRule::blend) {
       root.fail("remesh", "its sources can't be blended: set sizing.combine to min or max.");

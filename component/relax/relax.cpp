@@ -5,7 +5,8 @@
 #include <iterator>
 #include <utility>
 
-#include "relax/neighbours.hpp"
+#include "relax/centroidal.hpp"
+#include "relax/moves.hpp"
 #include "relax/polish.hpp"
 #include "relax/springs.hpp"
 #include "triangulation/flip.hpp"
@@ -16,34 +17,21 @@ namespace {
 // Flips are looked for after the rounds in which they happen: the first ones, then ever rarer.
 bool is_flip_round(int round, int last) { return round == 0 || round == 3 || round == last; }
 
+// What polish mends of a centroidal grid: triangles near a right angle, whose area-length is 0.866
+// at best. Twice the error of steady flow is what 0.94 would cost (see the README).
+constexpr double kCentroidalQuality = 0.88;
+
 void check_options(const RelaxOptions& options) {
   DELOS_CHECK(options.spring_rounds >= 0 && options.spring_rounds <= 100000, ErrorKind::config,
               "relax.spring_rounds = ", options.spring_rounds, ": must be in 0..100000.");
+  DELOS_CHECK(options.centroidal_rounds >= 0 && options.centroidal_rounds <= 100000,
+              ErrorKind::config, "relax.centroidal_rounds = ", options.centroidal_rounds,
+              ": must be in 0..100000.");
   DELOS_CHECK(options.polish_rounds >= 0 && options.polish_rounds <= 100000, ErrorKind::config,
               "relax.polish_rounds = ", options.polish_rounds, ": must be in 0..100000.");
   DELOS_CHECK(options.target_quality > 0.0 && options.target_quality < 1.0, ErrorKind::config,
               "relax.target_quality = ", options.target_quality,
               ": must be above 0 and below 1 (0.94 is the default).");
-}
-
-void relax_springs(Context& context, const Target& target, const RelaxOptions& options, Mesh& mesh,
-                   RelaxReport& report) {
-  const Phase phase(context.monitor, "relax",
-                    static_cast<std::int64_t>(options.spring_rounds) * mesh.n_vertices());
-  Array<Vertex> other;
-  NeighbourRows rows(context.exec, mesh);
-  for (int round = 0; round < options.spring_rounds; ++round) {
-    context.monitor.check_cancelled();
-    spring_round(context.exec, target, rows, mesh, other);
-    std::swap(mesh.vertices, other);
-    ++report.spring_rounds;
-    if (is_flip_round(round, options.spring_rounds - 1)) {
-      std::vector<Index> flipped;
-      report.n_flips += restore_delaunay_everywhere(context.exec, mesh, target.surface, &flipped);
-      rows.update(mesh, flipped);
-    }
-    context.monitor.advance(mesh.n_vertices());
-  }
 }
 
 constexpr std::int64_t kPartGrain = 16384;  // items a task: some ten microseconds
@@ -71,32 +59,59 @@ void update_part(const Mesh& mesh, const std::vector<Index>& flipped, RelaxPart&
   part.triangles = std::move(merged);
 }
 
-RelaxReport relax_springs(Context& context, const Target& target, const RelaxOptions& options,
-                          RelaxPart& part, Mesh& mesh) {
-  RelaxReport report;
-  std::vector<Index> vertices;
-  for (std::size_t v = 0; v < part.is_free.size(); ++v) {
-    if (part.is_free[v] != 0) vertices.push_back(static_cast<Index>(v));
-  }
-  const auto n = static_cast<std::int64_t>(vertices.size());
-  const Phase phase(context.monitor, "relax", options.spring_rounds * n);
-  SpringPart springs{{context.exec, mesh, part.at_vertex, std::move(vertices)}, part.triangles};
-  Array<Vertex> other;
-  for (int round = 0; round < options.spring_rounds; ++round) {
-    context.monitor.check_cancelled();
-    spring_round(context.exec, target, springs, mesh, other);
-    ++report.spring_rounds;
-    if (is_flip_round(round, options.spring_rounds - 1)) {
-      std::vector<Index> flipped;
-      report.n_flips +=
-          restore_delaunay_around(context.exec, mesh, target.surface, springs.triangles, &flipped);
-      springs.rows.update(mesh, flipped);
-      update_part(mesh, flipped, part);
-      springs.triangles = part.triangles;
+// What the rounds move: a whole mesh, or a part of it.
+struct Moved {
+  const Target& target;
+  Mesh& mesh;
+  RelaxPart* part;
+
+  Moving begin(Context& context) const {
+    if (part == nullptr) return {NeighbourRows(context.exec, mesh)};
+    std::vector<Index> vertices;
+    for (std::size_t v = 0; v < part->is_free.size(); ++v) {
+      if (part->is_free[v] != 0) vertices.push_back(static_cast<Index>(v));
     }
-    context.monitor.advance(n);
+    return {{context.exec, mesh, part->at_vertex, std::move(vertices)}, &part->triangles};
   }
-  return report;
+
+  /// Returns the number of flips.
+  std::int64_t restore_delaunay(Context& context, Moving& moving) const {
+    std::vector<Index> flipped;
+    const std::int64_t n_flips =
+        part == nullptr ? restore_delaunay_everywhere(context.exec, mesh, target.surface, &flipped)
+                        : restore_delaunay_around(context.exec, mesh, target.surface,
+                                                  part->triangles, &flipped);
+    moving.rows.update(mesh, flipped);
+    if (part != nullptr) update_part(mesh, flipped, *part);
+    return n_flips;
+  }
+};
+
+void relax_springs(Context& context, const Moved& moved, int n_rounds, RelaxReport& report) {
+  Moving moving = moved.begin(context);
+  const Phase phase(context.monitor, "relax", n_rounds * moving.rows.size());
+  for (int round = 0; round < n_rounds; ++round) {
+    context.monitor.check_cancelled();
+    spring_round(context.exec, moved.target, moving, moved.mesh);
+    ++report.spring_rounds;
+    if (is_flip_round(round, n_rounds - 1)) {
+      report.n_flips += moved.restore_delaunay(context, moving);
+    }
+    context.monitor.advance(moving.rows.size());
+  }
+}
+
+void relax_centroidal(Context& context, const Moved& moved, int n_rounds, RelaxReport& report) {
+  Moving moving = moved.begin(context);
+  const Phase phase(context.monitor, "centroidal", n_rounds * moving.rows.size());
+  const double momentum = centroidal_momentum(n_rounds);
+  for (int round = 0; round < n_rounds; ++round) {
+    context.monitor.check_cancelled();
+    centroidal_round(context.exec, moved.target, momentum, moving, moved.mesh);
+    ++report.centroidal_rounds;
+    report.n_flips += moved.restore_delaunay(context, moving);
+    context.monitor.advance(moving.rows.size());
+  }
 }
 
 void add(const PolishReport& polished, RelaxReport& report) {
@@ -107,18 +122,25 @@ void add(const PolishReport& polished, RelaxReport& report) {
   report.n_below_target = polished.n_below_target;
 }
 
+RelaxReport relax_moved(Context& context, const Moved& moved, RelaxOptions options) {
+  check_options(options);
+  RelaxReport report;
+  if (options.spring_rounds > 0) relax_springs(context, moved, options.spring_rounds, report);
+  if (options.centroidal_rounds > 0) {
+    relax_centroidal(context, moved, options.centroidal_rounds, report);
+    options.target_quality = std::min(options.target_quality, kCentroidalQuality);
+  }
+  if (options.polish_rounds > 0) {
+    add(polish(context, moved.target, options, moved.mesh, moved.part), report);
+  }
+  return report;
+}
+
 }  // namespace
 
 RelaxReport relax(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
                   const RelaxOptions& options, Mesh& mesh) {
-  check_options(options);
-  RelaxReport report;
-  const Target target{surface, spacing};
-  if (options.spring_rounds > 0) relax_springs(context, target, options, mesh, report);
-  if (options.polish_rounds > 0) {
-    add(polish(context, target, options, mesh), report);
-  }
-  return report;
+  return relax_moved(context, {{surface, spacing}, mesh, nullptr}, options);
 }
 
 std::vector<Index> triangles_of_free(parallel::Executor& exec, const Mesh& mesh,
@@ -134,11 +156,7 @@ std::vector<Index> triangles_of_free(parallel::Executor& exec, const Mesh& mesh,
 
 RelaxReport relax_part(Context& context, const Target& target, const RelaxOptions& options,
                        RelaxPart& part, Mesh& mesh) {
-  check_options(options);
-  RelaxReport report;
-  if (options.spring_rounds > 0) report = relax_springs(context, target, options, part, mesh);
-  if (options.polish_rounds > 0) add(polish(context, target, options, mesh, &part), report);
-  return report;
+  return relax_moved(context, {target, mesh, &part}, options);
 }
 
 }  // namespace delos

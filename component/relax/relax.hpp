@@ -13,6 +13,9 @@ namespace delos {
 struct RelaxOptions {
   /// Rounds of spring relaxation (Engwirda 2015, Eq. 2).
   int spring_rounds = 10;
+  /// Rounds that move each vertex to the centroid of its Voronoi cell (see relax/centroidal.hpp);
+  /// polish then aims at 0.88 at most, which is what keeps triangles acute, so that few leave it.
+  int centroidal_rounds = 0;
   /// Rounds of polish at most; they stop when every triangle meets the target or all means have
   /// failed.
   int polish_rounds = 100;
@@ -25,6 +28,7 @@ struct RelaxOptions {
 
 struct RelaxReport {
   int spring_rounds = 0;
+  int centroidal_rounds = 0;
   int polish_rounds = 0;
   std::int64_t n_flips = 0;
   std::int64_t n_removed = 0;

@@ -12,10 +12,11 @@ using namespace delos;
 
 namespace {
 
-Mesh relaxed(Context& context, const SampleSpacing& sample, RelaxReport& report) {
+Mesh relaxed(Context& context, const SampleSpacing& sample, RelaxReport& report,
+             const RelaxOptions& options = {}) {
   RefineReport refine_report;
   Mesh mesh = refine(context, sample.surface, sample.spacing, {}, refine_report);
-  report = relax(context, sample.surface, sample.spacing, {}, mesh);
+  report = relax(context, sample.surface, sample.spacing, options, mesh);
   return mesh;
 }
 
@@ -69,6 +70,32 @@ TEST_CASE("a crowd of eddies that few triangles can follow leaves none obtuse") 
   CHECK(report.n_below_target > 0);  // the spacing is not kept everywhere
   CHECK(quality.n_obtuse == 0);
   CHECK(quality.area_length_min.value >= 0.88);
+}
+
+TEST_CASE("centroidal meshes are sound and Delaunay, and none is obtuse where h is smooth") {
+  RelaxOptions options;
+  options.centroidal_rounds = 20;
+  for (const auto& sample : sample_spacings()) {
+    CAPTURE(sample.name);
+    TestRun run(2);
+    RelaxReport report;
+    const Mesh mesh = relaxed(run.context, sample, report, options);
+    CHECK(report.centroidal_rounds == 20);
+    CHECK(summary(validate(mesh, sample.surface)) == "");
+    if (!sample.is_smooth) continue;
+    const Quality quality = measure_quality(run.context, sample.surface, sample.spacing, mesh);
+    CHECK(quality.n_obtuse == 0);
+    CHECK(quality.relative_edge_min.value >= 0.65);
+  }
+}
+
+TEST_CASE("1, 2, 5 and 8 threads make the same bits of a centroidal mesh") {
+  RelaxOptions options;
+  options.centroidal_rounds = 10;
+  check_same_bits_for_any_threads(sample_spacings(), [&](Context& context, const auto& sample) {
+    RelaxReport report;
+    return digest(relaxed(context, sample, report, options));
+  });
 }
 
 TEST_CASE("1, 2, 5 and 8 threads relax to the same bits") {

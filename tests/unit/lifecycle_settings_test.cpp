@@ -113,6 +113,8 @@ TEST_CASE("options that contradict each other are refused") {
   has(error_of("surface: {radii: [1 km, 1 km, 1 km]}\n"), "does not go with shape: sphere");
   has(error_of("generator: icosahedral\n" + std::string(kUniform)), "is not used by generator");
   has(error_of("generator: icosahedral\n"), "give either subdivisions");
+  has(error_of("generator: icosahedral\nsubdivisions: 4\nrelax: {spring_rounds: 3}\n"),
+      "relax.spring_rounds: unknown key");
   has(error_of(std::string(kUniform) + "spacing: 60 km\n"), "belongs to the generators");
   has(error_of(with_source("{type: rossby}")), "give either radius_file");
 }
@@ -203,6 +205,9 @@ TEST_CASE("the requirements can be read alone") {
 
 TEST_CASE("baselines take subdivisions or a spacing") {
   CHECK(read("generator: icosahedral\nsubdivisions: 16\n").subdivisions == 16);
+  CHECK(read("generator: icosahedral\nsubdivisions: 16\n").relax.centroidal_rounds == 0);
+  CHECK(read("generator: icosahedral\nsubdivisions: 16\nrelax: {centroidal_rounds: 100}\n")
+            .relax.centroidal_rounds == 100);
   // 240 km on the Earth: 10 240 cells.
   CHECK(read("generator: icosahedral\nspacing: 240 km\n").subdivisions == 32);
   CHECK(read("generator: cubed_sphere\nspacing: 240 km\n").subdivisions == 41);
