@@ -34,7 +34,7 @@ BELOW = {
             "triangulation", "geometry", "time", "core"],
 }
 # What adapters may name: the phase functions and what these hand over.
-INTERFACES_MAY_INCLUDE = ["lifecycle", "io", "metrics", "domain", "partition", "dual", "sizing",
+INTERFACES_MAY_INCLUDE = ["lifecycle", "remap", "io", "metrics", "domain", "partition", "dual", "sizing",
                           "triangulation", "geometry", "time", "core"]
 # Folders beside the layers: CMake functions; the picture of PERFORMANCE.md.
 NO_LAYERS = ["cmake", "performance"]
