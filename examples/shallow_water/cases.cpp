@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
+#include <span>
 
 namespace shallow_water {
 namespace {
@@ -32,6 +33,41 @@ double integral(const std::function<double(double)>& f, double from, double to) 
     }
   }
   return half * sum;
+}
+
+struct LonLat {
+  double lon, lat;
+};
+
+// [n_cells] of the polygons between the vertices, flat from the cell's point.
+std::vector<LonLat> centroids(const delos::Grid& grid) {
+  using Vector = std::array<double, 3>;
+  const auto point = [](std::span<const double> positions, std::size_t i) {
+    return Vector{positions[3 * i], positions[3 * i + 1], positions[3 * i + 2]};
+  };
+  const auto offsets = grid.cell_offsets();
+  const auto corners = grid.vertices_on_cell();
+  std::vector<LonLat> all;
+  for (std::size_t cell = 0; cell + 1 < offsets.size(); ++cell) {
+    const Vector middle = point(grid.cell_position(), cell);
+    const auto begin = static_cast<std::size_t>(offsets[cell]);
+    const auto end = static_cast<std::size_t>(offsets[cell + 1]);
+    Vector moment = {};
+    for (std::size_t j = begin; j < end; ++j) {
+      const std::size_t next = j + 1 == end ? begin : j + 1;
+      const Vector a = point(grid.vertex_position(), static_cast<std::size_t>(corners[j]));
+      const Vector b = point(grid.vertex_position(), static_cast<std::size_t>(corners[next]));
+      // Of the pyramid over the triangle, up to a factor that all have.
+      const double volume = middle[0] * (a[1] * b[2] - a[2] * b[1]) +
+                            middle[1] * (a[2] * b[0] - a[0] * b[2]) +
+                            middle[2] * (a[0] * b[1] - a[1] * b[0]);
+      for (std::size_t i = 0; i < 3; ++i) moment[i] += volume * (middle[i] + a[i] + b[i]);
+    }
+    const double lon = std::atan2(moment[1], moment[0]);
+    all.push_back({lon < 0.0 ? lon + 2.0 * pi : lon,
+                   std::atan2(moment[2], std::hypot(moment[0], moment[1]))});
+  }
+  return all;
 }
 
 }  // namespace
@@ -113,6 +149,12 @@ double Case::base_m(double radius_m, const Physics& physics) const {
   return datum_m_ + integral(fall, south_rad_, north_rad_) / physics.gravity_m_s2;
 }
 
+std::vector<double> Case::ground_m(const delos::Grid& grid) const {
+  std::vector<double> all_m;
+  for (const auto& [lon, lat] : centroids(grid)) all_m.push_back(ground_m_(lon, lat));
+  return all_m;
+}
+
 Start Case::start(const delos::Grid& grid, const Physics& physics) const {
   const double radius_m = grid.scale_m();
   const double base_m = this->base_m(radius_m, physics);
@@ -122,9 +164,7 @@ Start Case::start(const delos::Grid& grid, const Physics& physics) const {
   };
   const auto push = [&](double lat) { return push_m2_s2(lat, radius_m, physics); };
   Start start;
-  const auto cells = grid.cell_lon_lat();
-  for (std::size_t i = 0; i < cells.size(); i += 2) {
-    const double lon = cells[i], lat = cells[i + 1];
+  for (const auto& [lon, lat] : centroids(grid)) {
     const double fall_m = since_base(push, lat) / physics.gravity_m_s2;
     start.ground_m.push_back(ground_m_(lon, lat));
     start.flow.depth_m.push_back(base_m - fall_m + bump_m_(lon, lat) - ground_m_(lon, lat));

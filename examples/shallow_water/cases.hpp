@@ -30,9 +30,11 @@ class Case {
   /// any other name.
   static Case named(const std::string& name);
 
-  /// Depths are those at the cells' points; velocities the differences of a stream function, so
-  /// that they have no divergence.
+  /// Depths are those at the cells' centroids, their means to second order; velocities the
+  /// differences of a stream function, so that they have no divergence.
   Start start(const delos::Grid& grid, const Physics& physics) const;
+  /// [n_cells] at the centroids.
+  std::vector<double> ground_m(const delos::Grid& grid) const;
   const View& view() const { return view_; }
   double days() const { return days_; }
   /// The start is the solution for all time.

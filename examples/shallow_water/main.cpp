@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "cases.hpp"
+#include "host.hpp"
 #include "model.hpp"
 #include "norms.hpp"
 #ifdef SHALLOW_WATER_PICTURES
@@ -25,14 +26,12 @@ namespace {
 using shallow_water::Case;
 using shallow_water::Model;
 
-constexpr double kHour_s = 3600.0;
-
 constexpr char kUsage[] =
     "usage: shallow_water CASE CONFIG [option value]...\n"
     "  CASE            tc2, tc5 or galewsky\n"
-    "  CONFIG          a configuration of delos: the grid\n"
+    "  CONFIG          a configuration of delos: the grid, and when to remake it\n"
     "  --days D        the case's own when left out: 5, 15, 6\n"
-    "  --every H       hours from one line to the next, 24\n"
+    "  --every H       whole hours from one line to the next, 24\n"
     "  --threads N     2; the results do not depend on it\n"
     "  --out FOLDER    pictures of vorticity and grid, one for every line, and their animation\n"
     "  --courant C     0.7\n"
@@ -42,7 +41,7 @@ constexpr char kUsage[] =
 struct Arguments {
   std::string case_name, config;
   double days = 0.0;
-  double every_h = 24.0;
+  int every_h = 24;
   double courant = 0.7;
   double anticipation = 0.0;
   int threads = 2;
@@ -75,7 +74,7 @@ Arguments parse(const std::vector<std::string>& words) {
     if (option == "--days") {
       arguments.days = number(option, value, 0.0);
     } else if (option == "--every") {
-      arguments.every_h = number(option, value, 0.01);
+      arguments.every_h = static_cast<int>(number(option, value, 1.0));
     } else if (option == "--courant") {
       arguments.courant = number(option, value, 0.01);
     } else if (option == "--anticipation") {
@@ -93,40 +92,55 @@ Arguments parse(const std::vector<std::string>& words) {
   return arguments;
 }
 
-delos::Grid make_grid(const Arguments& arguments) {
+delos::Config make_config(const Arguments& arguments) {
   auto config = delos::Config::from_file(arguments.config);
   for (const std::string& setting : arguments.settings) {
     const auto equals = setting.find('=');
     if (equals == std::string::npos) throw std::invalid_argument("--set takes KEY=VALUE.");
     config.set(setting.substr(0, equals), setting.substr(equals + 1));
   }
-  return delos::generate(config, {.threads = arguments.threads});
+  return config;
 }
 
 /// A line for every interval: what is kept, and where the solution is known, what is wrong.
 class Table {
  public:
-  Table(const Model& model, bool with_errors)
-      : start_(model.totals()), depth_m_(model.flow().depth_m), with_errors_(with_errors) {
+  Table(const Model& model, bool with_errors) : start_(model.totals()), with_errors_(with_errors) {
     std::printf("%8s %10s %10s %10s%s\n", "day", "mass", "energy", "enstrophy",
                 with_errors ? "      L2(h)    Linf(h)" : "");
   }
-  void line(const Model& model, double day) const {
-    const shallow_water::Totals now = model.totals();
-    std::printf("%8.3f %10.2e %10.2e %10.2e", day, now.mass / start_.mass - 1.0,
-                now.energy / start_.energy - 1.0,
-                now.potential_enstrophy / start_.potential_enstrophy - 1.0);
+  void line(const Model& model, const Case& flow, double day) const {
+    std::printf("%8.3f ", day);
+    print_change(start_, model.totals());
     if (with_errors_) {
-      const auto norms = shallow_water::error_norms(model.grid(), model.flow().depth_m, depth_m_);
+      const auto truth_m = flow.start(model.grid(), {}).flow.depth_m;
+      const auto norms = shallow_water::error_norms(model.grid(), model.flow().depth_m, truth_m);
       std::printf(" %10.3e %10.3e", norms.l2, norms.largest);
     }
     std::printf("\n");
     std::fflush(stdout);
   }
+  void line(const shallow_water::Change& change) {
+    std::printf("  remesh ");
+    print_change(change.before, change.after);
+    std::printf(" %lld cells, %lld of them as before\n", static_cast<long long>(change.n_after),
+                static_cast<long long>(change.n_unchanged));
+    energy_ += change.after.energy - change.before.energy;
+    ++n_changes_;
+  }
+  void close() const {
+    if (n_changes_ == 0) return;
+    std::printf("%d remeshes changed the energy by %.2e\n", n_changes_, energy_ / start_.energy);
+  }
 
  private:
+  static void print_change(const shallow_water::Totals& from, const shallow_water::Totals& to) {
+    std::printf("%10.2e %10.2e %10.2e", to.mass / from.mass - 1.0, to.energy / from.energy - 1.0,
+                to.potential_enstrophy / from.potential_enstrophy - 1.0);
+  }
   shallow_water::Totals start_;
-  std::vector<double> depth_m_;
+  double energy_ = 0.0;
+  int n_changes_ = 0;
   bool with_errors_;
 };
 
@@ -178,33 +192,27 @@ class Album {
 
 void simulate(const Arguments& arguments) {
   const Case flow = Case::named(arguments.case_name);
-  const shallow_water::Physics physics{.anticipation = arguments.anticipation};
-  const delos::Grid grid = make_grid(arguments);
-  shallow_water::Start start = flow.start(grid, physics);
-  Model model(physics);
-  model.start(grid, std::move(start.ground_m), std::move(start.flow));
-
+  shallow_water::Host host(flow, {.anticipation = arguments.anticipation}, make_config(arguments),
+                           arguments.threads);
+  const Model& model = host.model();
   const double days = arguments.days > 0.0 ? arguments.days : flow.days();
-  const double interval_s = arguments.every_h * kHour_s;
-  const auto n_intervals = static_cast<int>(std::lround(days * 24.0 / arguments.every_h));
+  const auto n_hours = static_cast<int>(std::lround(days * 24.0));
   std::printf("%s on %lld cells, steps of %.0f s\n", arguments.case_name.c_str(),
-              static_cast<long long>(grid.n_cells()), model.step_s(arguments.courant));
+              static_cast<long long>(model.grid().n_cells()), model.step_s(arguments.courant));
   Album album(arguments);
   album.take(model, flow, 0.0);
-  const Table table(model, flow.is_steady());
-  double n_steps = 0.0, busy_s = 0.0;
-  for (int interval = 1; interval <= n_intervals; ++interval) {
-    const double n = std::ceil(interval_s / model.step_s(arguments.courant));
-    const auto from = std::chrono::steady_clock::now();
-    for (double step = 0.0; step < n; ++step) model.advance(interval_s / n);
-    busy_s += std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-    n_steps += n;
-    table.line(model, interval * arguments.every_h / 24.0);
-    album.take(model, flow, interval * arguments.every_h / 24.0);
+  Table table(model, flow.is_steady());
+  const auto from = std::chrono::steady_clock::now();
+  while (host.hour() < n_hours) {
+    const auto change = host.advance_hour(arguments.courant);
+    if (change) table.line(*change);
+    if (change || host.hour() % arguments.every_h == 0) album.take(model, flow, host.hour() / 24.0);
+    if (host.hour() % arguments.every_h == 0) table.line(model, flow, host.hour() / 24.0);
   }
   album.close();
-  std::printf("%.0f steps, %.3g cell-steps/s\n", n_steps,
-              n_steps * static_cast<double>(grid.n_cells()) / busy_s);
+  table.close();
+  std::printf("%.1f s\n",
+              std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count());
 }
 
 }  // namespace

@@ -289,13 +289,21 @@ Totals Model::totals() const {
   return {mass.value(), energy.value(), enstrophy.value()};
 }
 
+std::vector<double> Model::vertex_vorticity() const {
+  std::vector<double> of_vertices(vertex_q_.size());
+  for_each(of_vertices.size(), [&, this](std::size_t vertex) {
+    of_vertices[vertex] = vertex_vorticity(vertex, flow_);
+  });
+  return of_vertices;
+}
+
 std::vector<double> Model::vorticity() const {
   const Tables& tables = *tables_;
+  const std::vector<double> of_vertices = vertex_vorticity();
   std::vector<double> of_cells(flow_.depth_m.size());
-  for_each(of_cells.size(), [&, this](std::size_t cell) {
+  for_each(of_cells.size(), [&](std::size_t cell) {
     for (auto j = at(tables.cell_offsets[cell]); j < at(tables.cell_offsets[cell + 1]); ++j) {
-      of_cells[cell] +=
-          tables.kite_share[j] * vertex_vorticity(at(tables.vertices_on_cell[j]), flow_);
+      of_cells[cell] += tables.kite_share[j] * of_vertices[at(tables.vertices_on_cell[j])];
     }
   });
   return of_cells;

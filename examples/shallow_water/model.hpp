@@ -63,7 +63,9 @@ class Model {
   const Flow& flow() const { return flow_; }
   const std::vector<double>& ground_m() const { return ground_m_; }
   Totals totals() const;
-  /// [n_cells] relative vorticity in 1/s: the mean of the triangles', by kites.
+  /// [n_vertices] relative vorticity in 1/s, of the triangles.
+  std::vector<double> vertex_vorticity() const;
+  /// [n_cells] the mean of the triangles', by kites.
   std::vector<double> vorticity() const;
 
  private:
