@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/geojson.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -189,6 +190,52 @@ std::vector<Json> features_of(Json root, const std::string& path) {
            names.empty() ? "Its features have no names" : "It has: " + join_names(names), "."));
 }
 
+/// The parts of a feature's `tags`, and its name.
+std::vector<std::string> labels_of(const Json& feature) {
+  std::vector<std::string> labels;
+  if (const std::string name = name_of(feature); !name.empty()) labels.push_back(name);
+  const Json& properties =
+      feature.is_object() && feature.contains("properties") ? feature["properties"] : Json();
+  if (!properties.is_object() || !properties.contains("tags") || !properties["tags"].is_string()) {
+    return labels;
+  }
+  std::string rest = properties["tags"];
+  while (!rest.empty()) {
+    const std::size_t end = std::min(rest.find(';'), rest.size());
+    if (end > 0) labels.push_back(rest.substr(0, end));
+    rest.erase(0, end + 1);
+  }
+  return labels;
+}
+
+void add_line(const Json& positions, const std::string& where, const std::string& name,
+              std::vector<LonLatLine>& lines) {
+  DELOS_CHECK(positions.is_array() && positions.size() >= 2, ErrorKind::input, where,
+              ": a line needs two positions at least. Repair or remove it.");
+  LonLatLine line;
+  line.name = name;
+  for (const Json& position : positions) {
+    const auto [lon, lat] = read_position(position, where);
+    line.lon_deg.push_back(lon);
+    line.lat_deg.push_back(lat);
+  }
+  lines.push_back(std::move(line));
+}
+
+/// The lines of a feature; none when it has something else.
+void add_lines(const Json& feature, const std::string& where, std::vector<LonLatLine>& lines) {
+  if (!feature.is_object() || !feature.contains("geometry") || feature["geometry"].is_null())
+    return;
+  const Json& geometry = feature["geometry"];
+  const std::string type = type_of(geometry, where);
+  if (type != "LineString" && type != "MultiLineString") return;
+  DELOS_CHECK(geometry.contains("coordinates") && geometry["coordinates"].is_array(),
+              ErrorKind::input, where, ": its ", type, " has no \"coordinates\". Repair it.");
+  const Json& parts = geometry["coordinates"];
+  if (type == "LineString") return add_line(parts, where, name_of(feature), lines);
+  for (const Json& part : parts) add_line(part, where, name_of(feature), lines);
+}
+
 }  // namespace
 
 PolygonSet read_polygons(const std::string& path, const std::string& feature_name) {
@@ -211,6 +258,26 @@ PolygonSet read_polygons(const std::string& path, const std::string& feature_nam
   DELOS_CHECK(!polygons.rings.empty(), ErrorKind::input, polygons.source,
               ": holds no polygon. Give a file with polygons.");
   return polygons;
+}
+
+std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select) {
+  const std::vector<Json> features = features_of(parse_file(path), path);
+  std::vector<LonLatLine> lines;
+  std::vector<std::string> known;
+  bool found = select.empty();
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const std::vector<std::string> labels = labels_of(features[i]);
+    known.insert(known.end(), labels.begin(), labels.end());
+    const bool is_wanted =
+        select.empty() || std::find(labels.begin(), labels.end(), select) != labels.end();
+    if (!is_wanted) continue;
+    found = true;
+    add_lines(features[i], feature_where(path, i, name_of(features[i])), lines);
+  }
+  if (!found) refuse_unknown_name(path, select, known);
+  DELOS_CHECK(!lines.empty(), ErrorKind::input, path,
+              ": holds no line. Give a file with LineStrings.");
+  return lines;
 }
 
 }  // namespace delos

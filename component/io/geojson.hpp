@@ -2,7 +2,9 @@
 #pragma once
 // Regions from GeoJSON files (RFC 7946).
 #include <string>
+#include <vector>
 
+#include "geometry/lines.hpp"
 #include "sizing/raster.hpp"
 
 namespace delos {
@@ -14,5 +16,10 @@ namespace delos {
 /// degrees, so a ring over the date line passes +-180. Error(input) names the file, the feature by
 /// number and name, and what is wrong.
 PolygonSet read_polygons(const std::string& path, const std::string& feature_name = "");
+
+/// The lines (LineString, MultiLineString) of the features of a file whose `name`, or one of whose
+/// `tags` (separated by ';'), is `select`; of all features with lines when that is empty.
+/// Longitudes as written. Error(input) as above, and when no line is found.
+std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select = "");
 
 }  // namespace delos

@@ -60,13 +60,13 @@ constexpr NamedText kTexts[] = {{"history", &Provenance::history},
 
 const char* ids_suffix(std::size_t n_ids) { return n_ids == 1 ? "_triangle" : "_cells"; }
 
-void write_extreme(netcdf::Writer& file, const std::string& name, const FileExtreme& extreme) {
+void write_extreme(netcdf::Writer& file, const std::string& name, const FileExtreme& extreme,
+                   std::size_t n_ids) {
   DELOS_CHECK(std::isfinite(extreme.value) && std::isfinite(extreme.lon_lat_deg[0]) &&
                   std::isfinite(extreme.lon_lat_deg[1]),
               ErrorKind::internal, "attribute ", name, " of ", file.path(), " would be ",
               extreme.value, ": a certificate holds finite numbers only.");
   file.attribute(netcdf::kGlobal, name, extreme.value);
-  const std::size_t n_ids = extreme.ids[1] == kNone ? 1 : 2;
   const std::array<std::int32_t, 2> ids = {extreme.ids[0] + kIndexBase,
                                            extreme.ids[1] + kIndexBase};
   file.attribute(netcdf::kGlobal, name + ids_suffix(n_ids), std::span(ids.data(), n_ids));
@@ -81,12 +81,12 @@ void write_certificate(netcdf::Writer& file, const FileCertificate& certificate,
            ", *_cells (the two cells of an edge) along ", elements.cell, "; *_lon_lat in degrees"));
   file.attribute(netcdf::kGlobal, kWellCentred, certificate.well_centred);
   file.attribute(netcdf::kGlobal, kObtuse, certificate.n_obtuse);
-  write_extreme(file, kAngle, certificate.angle_max_deg);
+  write_extreme(file, kAngle, certificate.angle_max_deg, 1);
   if (certificate.relative_edge_min) {
-    write_extreme(file, kRelativeEdge, *certificate.relative_edge_min);
+    write_extreme(file, kRelativeEdge, *certificate.relative_edge_min, 2);
   }
-  write_extreme(file, kDualRatio, certificate.dual_ratio_min);
-  write_extreme(file, kStagger, certificate.stagger_max);
+  write_extreme(file, kDualRatio, certificate.dual_ratio_min, 2);
+  write_extreme(file, kStagger, certificate.stagger_max, 2);
 }
 
 /// A global attribute of n finite numbers.
@@ -107,10 +107,11 @@ FileExtreme read_extreme(const netcdf::Reader& file, const std::string& name, st
   out.value = numbers(file, name, 1).front();
   const std::string ids_name = name + ids_suffix(n_ids);
   const std::vector<double> ids = numbers(file, ids_name, n_ids);
+  constexpr double kElsewhere = 0.0;  // an element of the triangulation that a culled grid lacks
   for (std::size_t i = 0; i < n_ids; ++i) {
     const double id = ids[i];
     constexpr double kMost = 2147483647.0;
-    DELOS_CHECK(id >= kIndexBase && id <= kMost && id == std::floor(id), ErrorKind::input,
+    DELOS_CHECK(id >= kElsewhere && id <= kMost && id == std::floor(id), ErrorKind::input,
                 file.path(), ": attribute ", ids_name, " holds ", id,
                 ", which is no id from 1. The file was changed; make it anew.");
     out.ids[i] = static_cast<Index>(id) - kIndexBase;

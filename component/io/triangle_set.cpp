@@ -84,6 +84,29 @@ std::int64_t orient(TriangleSet& set) {
   return n_turned;
 }
 
+void drop_lone_points(TriangleSet& set) {
+  std::vector<Index> new_id(set.position.size(), kNone);
+  for (const auto& corner : set.corners) {
+    for (const Index point : corner) new_id[static_cast<std::size_t>(point)] = 0;
+  }
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < new_id.size(); ++i) {
+    if (new_id[i] == kNone) continue;
+    set.position[n] = set.position[i];
+    for (std::vector<double>* values : {&set.spacing_m, &set.depth_m}) {
+      if (!values->empty()) (*values)[n] = (*values)[i];
+    }
+    new_id[i] = static_cast<Index>(n++);
+  }
+  set.position.resize(n);
+  for (std::vector<double>* values : {&set.spacing_m, &set.depth_m}) {
+    if (!values->empty()) values->resize(n);
+  }
+  for (auto& corner : set.corners) {
+    for (Index& point : corner) point = new_id[static_cast<std::size_t>(point)];
+  }
+}
+
 std::vector<char> border_points(const TriangleSet& set) {
   std::vector<char> out(set.position.size(), 0);
   const auto sides = sorted_sides(set);

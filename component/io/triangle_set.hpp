@@ -33,6 +33,9 @@ void settle_on_surface(const std::string& path, TriangleSet& set);
 /// Turns triangles that are clockwise seen from outside; how many.
 std::int64_t orient(TriangleSet& set);
 
+/// Takes out the points that belong to no triangle; the others keep their order.
+void drop_lone_points(TriangleSet& set);
+
 /// 1 for points on an edge with a triangle on one side only, else 0.
 std::vector<char> border_points(const TriangleSet& set);
 

@@ -324,15 +324,25 @@ void write_topology(const std::string& path, const Topology& topology, const Ugr
   target.commit();
 }
 
-/// Each side once: from the triangle of lower id.
+/// Each side once: from the triangle of lower id, or the only one.
 void for_each_edge_of(const Mesh& mesh, const std::function<void(Index, Index)>& edge) {
   for (Index tri = 0; tri < mesh.n_triangles(); ++tri) {
     const Triangle& triangle = mesh.triangle(tri);
     for (int k = 0; k < 3; ++k) {
-      if (triangle.neighbour[at(k)] < tri) continue;
+      const Index beyond = triangle.neighbour[at(k)];
+      if (beyond != kNone && beyond < tri) continue;
       edge(triangle.vertex[at(next_corner(k))], triangle.vertex[at(previous_corner(k))]);
     }
   }
+}
+
+/// A side of a closed surface belongs to two triangles, a border side to one.
+std::int64_t count_edges(const Mesh& mesh) {
+  std::int64_t n_sides = 0;
+  for (const Triangle& triangle : mesh.triangles) {
+    for (const Index beyond : triangle.neighbour) n_sides += beyond == kNone ? 2 : 1;
+  }
+  return n_sides / 2;
 }
 
 /// The field at the middles of the edges between these pairs of vertices, in metres.
@@ -370,7 +380,7 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Ugri
   topology.long_name = "Delaunay triangulation";
   topology.n_nodes = mesh.n_vertices();
   topology.n_faces = mesh.n_triangles();
-  topology.n_edges = topology.n_faces / 2 * 3;
+  topology.n_edges = count_edges(mesh);
   topology.node = [&](std::int64_t node) {
     return body.lon_lat(mesh.position(static_cast<Index>(node)), surface.latitude);
   };

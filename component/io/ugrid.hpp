@@ -37,8 +37,9 @@ struct UgridSurface {
 };
 
 /// The triangulation, topology `delos_triangles`: faces are triangles, nodes their corners, face
-/// coordinates the centres of their surface Delaunay balls. Atomic. Needs no dual: blocks of
-/// triangles stream to the file.
+/// coordinates the centres of their surface Delaunay balls. The mesh may have a border (neighbour
+/// kNone) and vertices of no triangle. Atomic. Needs no dual: blocks of triangles stream to the
+/// file.
 void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const UgridSurface& surface,
                            const Provenance& provenance, const UgridOptions& options = {});
 

@@ -125,7 +125,13 @@ void describe_inputs(const Settings& settings, const Inputs& inputs, Report& rep
   report.sections.push_back(std::move(section));
 }
 
-void build_dual(Context& context, Product& product) {
+/// Where the domain comes from: the inputs, or what was selected before.
+struct DomainSource {
+  const Inputs* inputs = nullptr;
+  std::vector<Index> cells;
+};
+
+void build_dual(Context& context, Product& product, const DomainSource& source) {
   const Ellipsoid& surface = product.settings.surface;
   {
     const Phase phase(context.monitor, "dual", product.mesh.n_vertices());
@@ -134,7 +140,13 @@ void build_dual(Context& context, Product& product) {
         context.exec, {surface, product.spacing, product.mesh.vertices},
         product.grid->cells_on_edge, [&](const Vec3&) { return surface.scale_m(); });
   }
-  const Phase phase(context.monitor, "digest", product.mesh.n_vertices());
+  if (product.settings.domain) {
+    product.domain = source.inputs != nullptr
+                         ? cull_to_domain(context, product.settings, *source.inputs, *product.grid,
+                                          product.report)
+                         : cull_to_cells(context, source.cells, *product.grid);
+  }
+  const Phase phase(context.monitor, "digest", product.grid->n_cells());
   product.report.sections.push_back({"dual", {{"digest", digest(context.exec, *product.grid)}}});
 }
 
@@ -145,7 +157,7 @@ FileNotes file_notes(const Product& product, const std::string& command) {
     notes.inputs.push_back({file.path, file.sha256});
   }
   notes.command = command;
-  notes.certificate = certificate(product.report.quality);
+  notes.certificate = certificate_of(product);
   notes.report_text = report_text(product.report);
   notes.report_json = report_json(product.report);
   return notes;
@@ -188,7 +200,8 @@ Product begin(const Context& context, const Settings& settings) {
 }
 
 /// What follows from mesh and spacing.
-void finish(Context& context, Product& product, const GenerateScope& scope) {
+void finish(Context& context, Product& product, const GenerateScope& scope,
+            const DomainSource& source) {
   Report& report = product.report;
   report.digest = digest(product.mesh);
   {
@@ -197,8 +210,8 @@ void finish(Context& context, Product& product, const GenerateScope& scope) {
                                      product.mesh, product.settings.latitude);
   }
   judge(context, product, scope.directory);
+  if (scope.with_dual || product.settings.domain) build_dual(context, product, source);
   if (scope.with_dual) {
-    build_dual(context, product);
     product.partitions =
         make_partitions(context, *product.grid, product.settings.output.partitions);
     for (const GridPartition& partition : product.partitions) {
@@ -210,10 +223,16 @@ void finish(Context& context, Product& product, const GenerateScope& scope) {
 
 }  // namespace
 
+Certificate certificate_of(const Product& product) {
+  Certificate whole = certificate(product.report.quality);
+  return product.domain ? in_domain(*product.domain, std::move(whole)) : whole;
+}
+
 OutputContent output_content(const Product& product, const std::string& command) {
   return {product.settings,
           product.mesh,
           product.grid ? &*product.grid : nullptr,
+          product.domain ? &*product.domain : nullptr,
           product.spacing_table_m ? &*product.spacing_table_m : nullptr,
           product.spacing,
           file_notes(product, command),
@@ -246,7 +265,7 @@ Product generate(Context& context, const Settings& settings, const Inputs& input
   Product product = begin(context, settings);
   Report& report = product.report;
   describe_inputs(settings, inputs, report);
-  product.elevation_m = inputs.recipe.elevation_m;
+  product.elevation_m = inputs.elevation_m;
   report.expected_vertices = expected_vertices(context.exec, settings.surface, sized.field);
   check_cost(context, settings, report.expected_vertices, scope);
 
@@ -258,7 +277,7 @@ Product generate(Context& context, const Settings& settings, const Inputs& input
   }
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = std::move(sized.field);
-  finish(context, product, scope);
+  finish(context, product, scope, {&inputs, {}});
   return product;
 }
 
@@ -270,7 +289,7 @@ Product resume(Context& context, const Settings& settings, SavedProduct saved) {
   product.mesh = std::move(saved.mesh);
   product.spacing_table_m = std::move(saved.spacing_table_m);
   product.spacing = std::move(saved.spacing);
-  finish(context, product, {});
+  finish(context, product, {}, {nullptr, std::move(saved.domain_cells)});
   return product;
 }
 

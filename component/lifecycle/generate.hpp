@@ -8,6 +8,7 @@
 
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
+#include "lifecycle/domain.hpp"
 #include "lifecycle/inputs.hpp"
 #include "lifecycle/outputs.hpp"
 #include "lifecycle/settings.hpp"
@@ -21,6 +22,7 @@ struct Product {
   Settings settings;
   Mesh mesh;
   std::optional<Grid> grid;                    ///< the dual, when it was asked for
+  std::optional<DomainIds> domain;             ///< when `grid` is a part of the surface
   SpacingField spacing;                        ///< what the grid was asked to follow
   std::optional<LatLonField> spacing_table_m;  ///< when the settings write it
   std::shared_ptr<const Raster> elevation_m;   ///< when the recipe used it
@@ -43,12 +45,13 @@ struct GenerateScope {
   const OldMeshScope* old = nullptr;
 };
 
-/// Phases: read, spacing, refine, relax, polish, quality, dual. The grid depends on the settings
-/// and the input files only, to the last bit. Error(resource) with the estimated count and memory
-/// before anything large is allocated; Error(quality) with every requirement that is missed, the
-/// value reached and the worst element's id and place, unless `require.keep` is on: then the log
-/// has it as a warning. On that error no grid is written, but, when scope.directory is given and
-/// settings.output.report is on, its report (write_rejected_report).
+/// Phases: read, spacing, refine, relax, polish, quality, dual and, with settings.domain, domain
+/// (then there always is a dual); quality is that of the whole triangulation. The grid depends on
+/// the settings and the input files only, to the last bit. Error(resource) with the estimated count
+/// and memory before anything large is allocated; Error(quality) with every requirement that is
+/// missed, the value reached and the worst element's id and place, unless `require.keep` is on:
+/// then the log has it as a warning. On that error no grid is written, but, when scope.directory is
+/// given and settings.output.report is on, its report (write_rejected_report).
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
 
 /// A wanted spacing; its table only when the settings write it.
@@ -70,11 +73,15 @@ struct SavedProduct {
   SpacingField spacing;
   std::optional<LatLonField> spacing_table_m;
   std::string report_notes;
+  std::vector<Index> domain_cells;  ///< DomainIds::cells; empty: the grid covers the surface
 };
 
 /// The product that was saved, to the last bit of its arrays and its report, of which only threads
 /// and phases are this call's: phases quality and dual. No input is read.
 Product resume(Context& context, const Settings& settings, SavedProduct saved);
+
+/// The certificate, ids as in the product's grid.
+Certificate certificate_of(const Product& product);
 
 /// What goes into the product's files; refers to the product. `command` is for their history.
 OutputContent output_content(const Product& product, const std::string& command);

@@ -38,6 +38,7 @@ class InputReader {
   /// False when the source is optional and a file of it is missing.
   bool add_source(const SourceSettings& source);
   void add_bathymetry(const BathymetrySettings& bathymetry);
+  void add_domain(const DomainSettings& domain);
 
  private:
   bool has_file(const FileRequest& request) const {
@@ -47,7 +48,9 @@ class InputReader {
   std::string path_of(const FileRequest& request);
   std::shared_ptr<const Raster> raster(const FileRequest& request);
   std::shared_ptr<const RasterStack> stack(const FileRequest& request);
-  std::shared_ptr<const PolygonSet> polygons(const SourceSettings& source);
+  std::shared_ptr<const PolygonSet> polygons(const FileRequest& request,
+                                             const std::string& feature);
+  std::vector<LonLatLine> lines(const LinesRequest& request);
   void fill(const SourceSettings& settings, SpacingSource& source);
 
   Context& context_;
@@ -97,22 +100,35 @@ std::shared_ptr<const RasterStack> InputReader::stack(const FileRequest& request
   });
 }
 
-std::shared_ptr<const PolygonSet> InputReader::polygons(const SourceSettings& source) {
-  if (source.polygons.file.empty()) return nullptr;
-  const std::string path = path_of(source.polygons);
+std::shared_ptr<const PolygonSet> InputReader::polygons(const FileRequest& request,
+                                                        const std::string& feature) {
+  if (request.file.empty()) return nullptr;
+  const std::string path = path_of(request);
   context_.monitor.advance(1);
-  return with_key(source.polygons.where, [&] {
-    return std::make_shared<const PolygonSet>(read_polygons(path, source.polygon_name));
-  });
+  return with_key(request.where,
+                  [&] { return std::make_shared<const PolygonSet>(read_polygons(path, feature)); });
+}
+
+std::vector<LonLatLine> InputReader::lines(const LinesRequest& request) {
+  if (request.file.file.empty()) return {};
+  const std::string path = path_of(request.file);
+  context_.monitor.advance(1);
+  return with_key(request.file.where, [&] { return read_lines(path, request.select); });
+}
+
+void InputReader::add_domain(const DomainSettings& domain) {
+  out_.land = polygons(domain.land, domain.land_feature);
+  out_.passages = lines(domain.passages);
+  out_.blockages = lines(domain.blockages);
 }
 
 void InputReader::fill(const SourceSettings& settings, SpacingSource& target) {
   if (auto* const source = std::get_if<RasterSource>(&target.source)) {
     source->raster = raster(settings.field);
   } else if (auto* const source = std::get_if<PolygonSource>(&target.source)) {
-    source->polygons = polygons(settings);
+    source->polygons = polygons(settings.polygons, settings.polygon_name);
   } else if (auto* const source = std::get_if<CoastSource>(&target.source)) {
-    source->land = polygons(settings);
+    source->land = polygons(settings.polygons, settings.polygon_name);
   } else if (auto* const source = std::get_if<EddySource>(&target.source)) {
     source->field = raster(settings.field);
   } else if (auto* const source = std::get_if<RossbySource>(&target.source)) {
@@ -166,7 +182,7 @@ void InputReader::add_bathymetry(const BathymetrySettings& bathymetry) {
     elevation = turned;
   }
   context_.monitor.log(LogLevel::info, text("bathymetry: ", out_.bathymetry));
-  out_.recipe.elevation_m = std::move(elevation);
+  out_.elevation_m = std::move(elevation);
 }
 
 }  // namespace
@@ -186,7 +202,10 @@ Inputs read_inputs(Context& context, const Settings& settings) {
   DELOS_CHECK(!out.recipe.sources.empty(), ErrorKind::input,
               "sizing.sources: every source is optional and lacks its file. Add one that needs no "
               "file, e.g. {type: constant, spacing: 60 km}.");
-  if (sizing.needs_bathymetry) reader.add_bathymetry(sizing.bathymetry);
+  const bool is_sea_masked = settings.domain && settings.domain->needs_bathymetry();
+  if (sizing.needs_bathymetry || is_sea_masked) reader.add_bathymetry(sizing.bathymetry);
+  if (sizing.needs_bathymetry) out.recipe.elevation_m = out.elevation_m;
+  if (settings.domain) reader.add_domain(*settings.domain);
   return out;
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The files that a configuration names, read into the sizing recipe.
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "core/progress.hpp"
+#include "geometry/lines.hpp"
 #include "lifecycle/settings.hpp"
 #include "sizing/sources.hpp"
 
@@ -17,10 +19,13 @@ struct InputRecord {
 };
 
 struct Inputs {
-  SpacingRecipe recipe;               ///< complete
-  std::vector<InputRecord> files;     ///< each once, in the order of reading
-  std::string bathymetry;             ///< where the elevation came from; empty: not used
-  std::vector<std::string> left_out;  ///< names of optional sources without their file
+  SpacingRecipe recipe;                         ///< complete
+  std::shared_ptr<const Raster> elevation_m;    ///< of sizing or domain; null: not used
+  std::shared_ptr<const PolygonSet> land;       ///< of domain; null: the elevation's
+  std::vector<LonLatLine> passages, blockages;  ///< of domain
+  std::vector<InputRecord> files;               ///< each once, in the order of reading
+  std::string bathymetry;                       ///< where the elevation came from; empty: not used
+  std::vector<std::string> left_out;            ///< names of optional sources without their file
 };
 
 /// Reads what the settings ask for (phase "read"). A relative name is looked for in the

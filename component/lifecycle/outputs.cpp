@@ -100,7 +100,13 @@ Grid carry_to_sphere(Context& context, const OutputContent& content, Provenance&
   grid.edge_spacing_m = spacing_at_edges(
       context.exec, {surface, content.spacing, content.mesh.vertices}, grid.cells_on_edge,
       [&](const Vec3& p) { return map.stretch(p) * sphere.scale_m(); });
-  provenance.certificate = file_certificate(certify_carried(context, content.settings, mesh, grid));
+  const Certificate carried = certify_carried(context, content.settings, mesh, grid);
+  if (content.domain == nullptr) {
+    provenance.certificate = file_certificate(carried);
+  } else {
+    const DomainIds ids = cull_to_cells(context, content.domain->cells, grid);
+    provenance.certificate = file_certificate(in_domain(ids, carried));
+  }
   return grid;
 }
 
@@ -126,6 +132,17 @@ UgridOptions ugrid_options(Context& context, const OutputContent& content) {
   // CDO's bounds double the file, and no such tool opens grids of this size.
   constexpr Index kMaxVerticesWithBounds = 50'000'000;
   return {format_of(content), content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
+}
+
+/// FESOM2 takes the wet part, without points of no triangle.
+TriangleSet wet_triangles(const OutputContent& content) {
+  const Settings& settings = content.settings;
+  if (content.domain == nullptr) {
+    return triangle_set(settings.surface, settings.latitude, content.mesh);
+  }
+  TriangleSet set = triangle_set(settings.surface, settings.latitude, triangles_of(*content.grid));
+  drop_lone_points(set);
+  return set;
 }
 
 /// Folders made on the way to `directory`, removed again unless kept.
@@ -161,7 +178,8 @@ class OutputWriter {
 
   void write_grids() {
     const OutputSettings& output = content_.settings.output;
-    const std::int64_t n_cells = content_.mesh.n_vertices();
+    const std::int64_t n_cells =
+        content_.domain != nullptr ? content_.grid->n_cells() : content_.mesh.n_vertices();
     const std::uint64_t ugrid_bytes =
         ugrid_triangles_size_bytes(n_cells, ugrid_options(context_, content_));
     if (output.mpas) write_grid(FileKind::mpas, "mpas.nc", mpas_size_bytes(n_cells));
@@ -230,8 +248,7 @@ class OutputWriter {
     add(kind, [&](const std::string& path) { write_text_atomically(path, value); });
   }
   void write_fesom_folder() {
-    const TriangleSet set =
-        triangle_set(content_.settings.surface, content_.settings.latitude, content_.mesh);
+    const TriangleSet set = wet_triangles(content_);
     const std::string folder = text(content_.settings.output.name, ".fesom");
     fesom_folder_.emplace(directory_ / folder);
     for (const FesomFile& file : fesom_files(set)) {
@@ -293,16 +310,15 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
                      const std::string& path) {
   const Settings& settings = content.settings;
   const netcdf::Format format = format_of(content);
-  const auto triangles = [&] {
-    return triangle_set(settings.surface, settings.latitude, content.mesh);
-  };
+  const Mesh part = content.domain != nullptr ? triangles_of(*content.grid) : Mesh();
+  const Mesh& mesh = content.domain != nullptr ? part : content.mesh;
+  const auto triangles = [&] { return triangle_set(settings.surface, settings.latitude, mesh); };
   switch (kind) {
     case FileKind::mpas:
       write_mpas_file(context, content, path);
       return;
     case FileKind::ugrid_triangles:
-      write_ugrid_triangles(path, content.mesh,
-                            {settings.surface, settings.latitude, &content.spacing},
+      write_ugrid_triangles(path, mesh, {settings.surface, settings.latitude, &content.spacing},
                             provenance_of(content), ugrid_options(context, content));
       return;
     case FileKind::ugrid_cells:
@@ -321,7 +337,7 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
     case FileKind::jigsaw:
       return write_jigsaw(path, triangles());
     case FileKind::fesom:
-      return write_fesom(path, triangles());
+      return write_fesom(path, wet_triangles(content));
   }
 }
 

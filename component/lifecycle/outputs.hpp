@@ -9,6 +9,7 @@
 #include "core/progress.hpp"
 #include "dual/grid.hpp"
 #include "io/provenance.hpp"
+#include "lifecycle/domain.hpp"
 #include "lifecycle/file_kind.hpp"
 #include "lifecycle/inputs.hpp"
 #include "lifecycle/settings.hpp"
@@ -31,6 +32,7 @@ struct OutputContent {
   const Settings& settings;
   const Mesh& mesh;
   const Grid* grid;                    ///< may be null when the settings need no dual
+  const DomainIds* domain;             ///< null: the grid covers the surface
   const LatLonField* spacing_table_m;  ///< may be null
   const SpacingField& spacing;         ///< what the grid was asked to follow
   FileNotes notes;

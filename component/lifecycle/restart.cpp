@@ -28,6 +28,7 @@ constexpr const char* kClock = "clock";
 constexpr const char* kComponentClock = "component_clock";
 constexpr const char* kVertices = "vertices";
 constexpr const char* kTriangles = "triangles";
+constexpr const char* kDomain = "domain_cells";
 constexpr const char* kNotes = "report_notes";
 constexpr const char* kSpacing = "spacing";
 constexpr const char* kSpacingTable = "spacing_table";
@@ -107,6 +108,10 @@ std::vector<RestartArray> arrays_of(const Restart& state, const Content& content
   if (!content.component_clock.empty()) {
     out.push_back({kComponentClock, "the component's, as clock",
                    std::span<const std::int64_t>(content.component_clock)});
+  }
+  if (product.domain) {
+    out.push_back({kDomain, "[n_cells] the vertex, from 0, of each cell of the culled grid",
+                   std::span<const std::int32_t>(product.domain->cells)});
   }
   add_table(content.spacing, kSpacing, "units of the largest radius", out);
   add_table(content.table_m, kSpacingTable, "m", out);
@@ -287,7 +292,10 @@ SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
   SpacingField spacing =
       scaled ? SpacingField::of_scaled(exec, settings.surface, settings.latitude, *scaled)
              : SpacingField::table(exec, settings.surface, settings.latitude, *table_m);
-  return {read_mesh(file), std::move(spacing), std::move(table_m), file.text(kNotes)};
+  std::vector<Index> cells;
+  if (settings.domain) cells = file.ids(kDomain);
+  return {read_mesh(file), std::move(spacing), std::move(table_m), file.text(kNotes),
+          std::move(cells)};
 }
 
 }  // namespace

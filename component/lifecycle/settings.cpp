@@ -65,7 +65,7 @@ int read_rounds(MapReader& keys, const char* key, int fallback) {
 /// Baselines have one spacing everywhere, from `subdivisions` or `spacing`.
 void read_baseline(MapReader& root, const char* generator, Settings& out) {
   for (const char* const key : {"sizing", "bathymetry", "refine", "remesh"}) {
-    if (root.has(key)) {
+    if (root.has(key) && !(key == std::string_view("bathymetry") && root.has("domain"))) {
       root.fail(key, "is not used by generator: ", generator,
                 ", which takes `subdivisions` or `spacing`, and relax.centroidal_rounds.");
     }
@@ -225,7 +225,7 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   MapReader root(
       root_node, "", effective,
       {"title", "surface", "generator", "subdivisions", "spacing", "sizing", "bathymetry", "refine",
-       "relax", "output", "require", "remesh", "threads", "data_path"});
+       "relax", "domain", "output", "require", "remesh", "threads", "data_path"});
   out.title = root.string("title", "");
   read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
   constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,
@@ -251,6 +251,12 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
     read_baseline(root, out.generator == Generator::icosahedral ? "icosahedral" : "cubed_sphere",
                   out);
   }
+  out.domain = read_domain(root);
+  if (out.domain && out.remesh) {
+    root.fail("domain", "a culled grid can't be made anew while a model runs: remove `domain` or ",
+              "`remesh`.");
+  }
+  if (out.domain && out.domain->needs_bathymetry()) add_bathymetry(root, out.sizing);
   out.output = read_output(
       root.map("output", {"directory", "name", "formats", "graph", "partitions", "partition_method",
                           "report", "spacing", "pictures", "view", "unit_sphere", "compress"}));

@@ -8,9 +8,10 @@
 #include <vector>
 
 #include "geometry/ellipsoid.hpp"
-#include "io/rasters.hpp"
 #include "lifecycle/file_kind.hpp"
+#include "lifecycle/file_request.hpp"
 #include "lifecycle/partitions.hpp"
+#include "lifecycle/settings_domain.hpp"
 #include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
@@ -21,13 +22,6 @@
 namespace delos {
 
 enum class Generator { frontal, icosahedral, cubed_sphere };
-
-/// A field in a file that the configuration names.
-struct FileRequest {
-  std::string file;   ///< as written, or empty: none
-  std::string where;  ///< "file:line key.path" of the key, for messages
-  RasterRequest raster;
-};
 
 /// A source without its data, and the data it needs. Which of the requests are used follows from
 /// the kind of source.
@@ -91,6 +85,7 @@ struct Settings {
   RelaxOptions relax;
   OutputSettings output;
   RequireSettings require;
+  std::optional<DomainSettings> domain;  ///< without it the grid covers the whole surface
   std::optional<RemeshSettings> remesh;  ///< without it the grid stays
   int threads = 0;
   /// The effective configuration (defaults and overrides included) as YAML, without `threads` and

@@ -442,12 +442,14 @@ SizingSettings read_sizing(MapReader& root, double radius_m, LatitudeKind latitu
   if (sizing.has("cells")) {
     out.recipe.cells = sizing.integer("cells", 12, 2'000'000'000);
   }
-  const bool has_bathymetry = root.has("bathymetry");
-  if (has_bathymetry || out.needs_bathymetry) {
-    out.bathymetry =
-        read_bathymetry(root.map("bathymetry", {"file", "variable", "time", "units", "sea"}));
-  }
+  if (root.has("bathymetry") || out.needs_bathymetry) add_bathymetry(root, out);
   return out;
+}
+
+void add_bathymetry(MapReader& root, SizingSettings& out) {
+  if (!out.bathymetry.field.file.empty()) return;
+  out.bathymetry =
+      read_bathymetry(root.map("bathymetry", {"file", "variable", "time", "units", "sea"}));
 }
 
 }  // namespace delos

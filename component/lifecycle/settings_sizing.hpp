@@ -9,6 +9,9 @@ namespace delos {
 /// `radius_m` turns lengths along the surface into angles.
 SizingSettings read_sizing(MapReader& root, double radius_m, LatitudeKind latitude);
 
+/// The section `bathymetry`, where read_sizing() did not need it.
+void add_bathymetry(MapReader& root, SizingSettings& out);
+
 /// What turns eddies into spacing: form, quiet, energetic, threshold, spacing_below, spacing_above,
 /// clamp, smooth, and fill_speed, fill_height or fill; the source has no field yet.
 EddySource read_eddy_law(MapReader& keys, EddyQuantity quantity, double radius_m);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "pictures/cell_painter.hpp"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
@@ -31,13 +32,17 @@ CellPainter::CellPainter(const Grid& grid, const LandMask* land)
     : grid_(grid), land_(land), sizes_km_(cell_sizes_km(grid)), scale_(sizes_km_) {
   cell_colours_.reserve(sizes_km_.size());
   for (const double size : sizes_km_) cell_colours_.push_back(scale_.colour(size));
+  if (is_closed(grid)) return;
+  parallel::Executor alone(1);
+  nearest_.emplace(alone, std::vector<Vec3>(grid.cell_position.begin(), grid.cell_position.end()));
 }
 
-Colour CellPainter::colour(const Vec3& p, Index& hint) const {
+void CellPainter::walk(const Vec3& p, Index& hint) const {
   double nearest = (grid_.cell_position[static_cast<std::size_t>(hint)] - p).squaredNorm();
   for (Index at = kNone; at != hint;) {
     at = hint;
     for (const Index neighbour : grid_.cells_on_cell.row(at)) {
+      if (neighbour == kNone) continue;
       const double distance =
           (grid_.cell_position[static_cast<std::size_t>(neighbour)] - p).squaredNorm();
       if (distance < nearest) {
@@ -46,13 +51,39 @@ Colour CellPainter::colour(const Vec3& p, Index& hint) const {
       }
     }
   }
-  const Colour& own = cell_colours_[static_cast<std::size_t>(hint)];
+}
+
+bool CellPainter::holds(Index cell, const Vec3& p) const {
+  const auto vertices = grid_.vertices_on_cell.row(cell);
+  Index before = vertices.back();
+  for (const Index vertex : vertices) {
+    const Vec3& from = grid_.vertex_position[static_cast<std::size_t>(before)];
+    if (from.cross(grid_.vertex_position[static_cast<std::size_t>(vertex)]).dot(p) < 0.0) {
+      return false;
+    }
+    before = vertex;
+  }
+  return true;
+}
+
+bool CellPainter::find(const Vec3& p, Index& hint) const {
+  walk(p, hint);
+  if (!nearest_ || holds(hint, p)) return true;
+  constexpr double kAnywhere = 5.0;  // the longest squared chord is 4
+  hint = nearest_->find(p, kAnywhere).point;
+  return holds(hint, p);
+}
+
+Colour CellPainter::colour(const Vec3& p, Index& hint) const {
+  const bool is_in_grid = find(p, hint);
+  const Colour& own = is_in_grid ? cell_colours_[static_cast<std::size_t>(hint)] : kLand;
   if (land_ == nullptr) return own;
   const LonLat where = grid_.surface.lon_lat(p, grid_.latitude);
   const double lon = where.lon_rad * kDegPerRad, lat = where.lat_rad * kDegPerRad;
-  if (!land_->is_land(lon, lat)) return own;
+  if (is_in_grid && !land_->is_land(lon, lat)) return own;
   const double shade = land_->shade(lon, lat);
-  return mix(own, {kLand.r * shade, kLand.g * shade, kLand.b * shade, 1.0}, kLandCover);
+  const Colour land{kLand.r * shade, kLand.g * shade, kLand.b * shade, 1.0};
+  return is_in_grid ? mix(own, land, kLandCover) : land;
 }
 
 bool CellPainter::is_dark(Index cell, const Vec3& p) const {

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The colour of the grid at a surface point: shared by globe and map.
+#include <optional>
 #include <vector>
 
 #include "dual/grid.hpp"
 #include "pictures/coastline.hpp"
 #include "pictures/colour_map.hpp"
+#include "sizing/nearest.hpp"
 
 namespace delos::pictures {
 
@@ -22,13 +24,20 @@ class CellPainter {
   /// Colour at the surface point p (scaled), found by walking from cell `hint` to ever nearer
   /// neighbours: a Voronoi cell holds what is nearest to it. `hint` becomes the cell of p; near
   /// points asked one after the other cost a few steps each.
+  /// Where a grid with a border has no cell, the colour is that of land.
   Colour colour(const Vec3& p, Index& hint) const;
   /// Whether cell `cell`, or the land that covers point p of it, is so dark that lines on it must
   /// be light.
   bool is_dark(Index cell, const Vec3& p) const;
 
  private:
+  void walk(const Vec3& p, Index& hint) const;
+  bool holds(Index cell, const Vec3& p) const;
+  /// Whether a cell holds p; if so, `hint` becomes it.
+  bool find(const Vec3& p, Index& hint) const;
+
   const Grid& grid_;
+  std::optional<NearestPoint> nearest_;  ///< of a grid with a border, where walks may end early
   const LandMask* land_;
   std::vector<double> sizes_km_;
   SizeScale scale_;

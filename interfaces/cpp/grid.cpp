@@ -53,7 +53,7 @@ std::int64_t edge_between(const delos::Grid& grid, Index a, Index b) {
 }
 
 Worst worst(const delos::Grid& grid, const Extreme& extreme) {
-  const bool is_edge = extreme.element == Element::edge;
+  const bool is_edge = extreme.element == Element::edge && extreme.id != kNone;
   const double lon_rad = extreme.where.lon_rad;
   return {extreme.value,
           is_edge ? edge_between(grid, extreme.id, extreme.other) : extreme.id,
@@ -63,7 +63,7 @@ Worst worst(const delos::Grid& grid, const Extreme& extreme) {
 }
 
 Certificate public_certificate(const Product& product) {
-  const delos::Certificate own = delos::certificate(product.report.quality);
+  const delos::Certificate own = certificate_of(product);
   const auto at = [&](const Extreme& extreme) { return worst(*product.grid, extreme); };
   return {.well_centred = own.is_well_centred(),
           .well_centred_fraction = own.well_centred,

@@ -148,7 +148,7 @@ TEST_CASE("a certificate in part, or of ids that can't be, is refused by attribu
                  [&] { delos::read_provenance(Reader(folder.file("c.nc"))); });
   };
   refused("other", {1.0}, "delos_angle_max_deg_triangle is missing");
-  refused("delos_angle_max_deg_triangle", {0.0}, "no id from 1");
+  refused("delos_angle_max_deg_triangle", {-1.0}, "no id from 1");
   refused("delos_angle_max_deg_triangle", {1.5}, "no id from 1");
   refused("delos_angle_max_deg_triangle", {1.0, 2.0}, "is not 1 finite number");
   refused("delos_angle_max_deg_triangle", {5.0}, "delos_angle_max_deg_lon_lat is missing");

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#include "lifecycle/domain.hpp"
+
+#include <algorithm>
+
+#include "domain/cell_means.hpp"
+#include "domain/cull.hpp"
+#include "domain/ocean.hpp"
+
+namespace delos {
+namespace {
+
+std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+
+/// Land polygons are drawn on a table finer than the cells, and than maps of the world.
+double polygon_resolution_rad(const Grid& grid) {
+  constexpr double kFinest = 1.0 / 60.0, kCoarsest = 0.25;  // degrees
+  const double finest_m =
+      *std::min_element(grid.cell_distance_m.begin(), grid.cell_distance_m.end());
+  const double tenth_deg = 0.1 * finest_m / grid.surface.scale_m() * kDegPerRad;
+  return std::clamp(tenth_deg, kFinest, kCoarsest) * kRadPerDeg;
+}
+
+Array<double> wet_fraction(Context& context, const Settings& settings, const Inputs& inputs,
+                           const Grid& grid) {
+  domain::CellMeans means;
+  if (inputs.land != nullptr) {
+    const LatLonField elevation =
+        domain::elevation_of(context.exec, *inputs.land, polygon_resolution_rad(grid));
+    means = domain::mean_over_cells(context, grid, elevation);
+  } else {
+    means = domain::mean_over_cells(context, grid, *inputs.elevation_m,
+                                    settings.domain->options.sea_level_m);
+  }
+  return std::move(means.wet_fraction);
+}
+
+struct LineTotals {
+  std::int64_t n_holding = 0, n_changed = 0;
+  std::string failed;  ///< names, "; " between them
+};
+
+LineTotals totals_of(const std::vector<domain::LineReport>& lines) {
+  LineTotals out;
+  for (const domain::LineReport& line : lines) {
+    out.n_holding += line.holds;
+    out.n_changed += line.n_changed;
+    if (!line.holds) out.failed += (out.failed.empty() ? "" : "; ") + line.name;
+  }
+  return out;
+}
+
+void warn(const Context& context, const std::vector<domain::LineReport>& lines, const char* what) {
+  for (const domain::LineReport& line : lines) {
+    if (line.holds) continue;
+    context.monitor.log(LogLevel::warning, text("the ", what, " '", line.name, "' of ",
+                                                line.n_cells, " cells does not hold."));
+  }
+}
+
+ReportSection section_of(const domain::OceanReport& report) {
+  const LineTotals passages = totals_of(report.passages), blockages = totals_of(report.blockages);
+  return {"domain",
+          {{"n_cells", report.n_cells},
+           {"n_edges", report.n_edges},
+           {"n_border_edges", report.n_border_edges},
+           {"n_vertices", report.n_vertices},
+           {"area_m2", report.area_m2},
+           {"n_bodies", report.n_bodies},
+           {"n_bodies_kept", report.n_bodies_kept},
+           {"n_cells_of_other_bodies", report.n_cells_of_other_bodies},
+           {"n_bay_cells_removed", report.pruned.n_bays},
+           {"n_channel_cells_removed", report.pruned.n_channels},
+           {"n_passages", static_cast<std::int64_t>(report.passages.size())},
+           {"n_passages_open", passages.n_holding},
+           {"n_cells_opened", passages.n_changed},
+           {"passages_not_open", passages.failed},
+           {"n_blockages", static_cast<std::int64_t>(report.blockages.size())},
+           {"n_blockages_shut", blockages.n_holding},
+           {"n_cells_shut", blockages.n_changed},
+           {"blockages_not_shut", blockages.failed}}};
+}
+
+/// New ids of some old ones; kNone for those that are gone.
+Index id_in(const Array<Index>& old_ids, Index old) {
+  const auto found = std::find(old_ids.begin(), old_ids.end(), old);
+  return found == old_ids.end() ? kNone : static_cast<Index>(found - old_ids.begin());
+}
+
+void rename(const DomainIds& ids, Extreme& extreme) {
+  if (extreme.element == Element::edge) {
+    const Index a = id_in(ids.cells, extreme.id), b = id_in(ids.cells, extreme.other);
+    const bool is_there = a != kNone && b != kNone;
+    extreme.id = is_there ? std::min(a, b) : kNone;
+    extreme.other = is_there ? std::max(a, b) : kNone;
+  } else {
+    extreme.id = id_in(ids.vertices, extreme.id);
+  }
+}
+
+}  // namespace
+
+DomainIds cull_to_domain(Context& context, const Settings& settings, const Inputs& inputs,
+                         Grid& grid, Report& report) {
+  const Phase phase(context.monitor, "domain", grid.n_cells());
+  domain::OceanOptions options = settings.domain->options;
+  options.passages = inputs.passages;
+  options.blockages = inputs.blockages;
+  const std::int64_t n_before = grid.n_cells();
+  domain::Ocean ocean = domain::select_ocean(
+      context.exec, grid, wet_fraction(context, settings, inputs, grid), options);
+  warn(context, ocean.report.passages, "passage");
+  warn(context, ocean.report.blockages, "blockage");
+  context.monitor.log(LogLevel::info,
+                      text("domain: ", ocean.report.n_cells, " of ", n_before, " cells, ",
+                           ocean.report.area_m2 * 1e-12, " million km2, ",
+                           ocean.report.n_bodies_kept, " of ", ocean.report.n_bodies, " bodies"));
+  report.sections.push_back(section_of(ocean.report));
+  grid = std::move(ocean.culled.grid);
+  return {std::move(ocean.culled.old_cell), std::move(ocean.culled.old_vertex)};
+}
+
+DomainIds cull_to_cells(Context& context, std::span<const Index> cells, Grid& grid) {
+  const Phase phase(context.monitor, "domain", grid.n_cells());
+  domain::Culled culled = domain::cull(context.exec, grid, cells);
+  grid = std::move(culled.grid);
+  return {std::move(culled.old_cell), std::move(culled.old_vertex)};
+}
+
+Certificate in_domain(const DomainIds& ids, Certificate certificate) {
+  rename(ids, certificate.angle_max_deg);
+  rename(ids, certificate.dual_ratio_min);
+  rename(ids, certificate.stagger_max);
+  if (certificate.relative_edge_min) rename(ids, *certificate.relative_edge_min);
+  return certificate;
+}
+
+Mesh triangles_of(const Grid& grid) {
+  Mesh mesh;
+  mesh.vertices.resize(grid.cell_position.size());
+  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
+    const Vec3& p = grid.cell_position[i];
+    const double spacing_m = grid.cell_spacing_m.empty() ? 0.0 : grid.cell_spacing_m[i];
+    mesh.vertices[i] = {p.x(), p.y(), p.z(), spacing_m / grid.surface.scale_m()};
+  }
+  const auto is_triangle = [&](Index vertex) {
+    const auto& cells = grid.cells_on_vertex[at(vertex)];
+    return std::find(cells.begin(), cells.end(), kNone) == cells.end();
+  };
+  std::vector<Index> triangle(grid.vertex_position.size(), kNone);
+  Index n = 0;
+  for (Index vertex = 0; vertex < grid.n_vertices(); ++vertex) {
+    if (is_triangle(vertex)) triangle[at(vertex)] = n++;
+  }
+  mesh.triangles.resize(at(n));
+  for (Index vertex = 0; vertex < grid.n_vertices(); ++vertex) {
+    if (triangle[at(vertex)] == kNone) continue;
+    Triangle& out = mesh.triangle(triangle[at(vertex)]);
+    out.vertex = grid.cells_on_vertex[at(vertex)];
+    for (std::size_t j = 0; j < 3; ++j) {
+      // Edge j lies between the cells j - 1 and j, opposite corner j + 1.
+      const auto& ends = grid.vertices_on_edge[at(grid.edges_on_vertex[at(vertex)][j])];
+      out.neighbour[(j + 1) % 3] = triangle[at(ends[0] == vertex ? ends[1] : ends[0])];
+    }
+  }
+  return mesh;
+}
+
+}  // namespace delos

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: BSD-3-Clause
+#pragma once
+// The section `domain`: which part of the surface the grid keeps.
+#include <optional>
+#include <string>
+
+#include "domain/ocean.hpp"
+#include "lifecycle/file_request.hpp"
+
+namespace delos {
+
+class MapReader;
+
+/// Lines in a GeoJSON file.
+struct LinesRequest {
+  FileRequest file;
+  std::string select;  ///< name or tag of the features to take; empty: all
+};
+
+struct DomainSettings {
+  domain::OceanOptions options;  ///< without its lines
+  FileRequest land;              ///< polygons in place of the bathymetry; no file: none
+  std::string land_feature;      ///< feature to take; empty: all
+  LinesRequest passages, blockages;
+
+  bool needs_bathymetry() const { return land.file.empty(); }
+};
+
+/// Nothing without the section. Error(config) as all settings.
+std::optional<DomainSettings> read_domain(MapReader& root);
+
+}  // namespace delos
