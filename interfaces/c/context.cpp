@@ -33,39 +33,6 @@ bool is_known(std::uint64_t magic) { return kind_name(magic) != nullptr; }
 
 }  // namespace
 
-int fail(const Handle& handle, int status, const char* place, const char* message) noexcept {
-  try {
-    handle.error = place;
-    if (*place != '\0') handle.error += ": ";
-    handle.error += message;
-  } catch (...) {
-    handle.error.clear();
-  }
-  return status;
-}
-
-int status_of(ErrorKind kind) noexcept {
-  switch (kind) {
-    case ErrorKind::config:
-      return DELOS_ERROR_CONFIG;
-    case ErrorKind::input:
-      return DELOS_ERROR_INPUT;
-    case ErrorKind::output:
-      return DELOS_ERROR_OUTPUT;
-    case ErrorKind::resource:
-      return DELOS_ERROR_RESOURCE;
-    case ErrorKind::state:
-      return DELOS_ERROR_STATE;
-    case ErrorKind::quality:
-      return DELOS_ERROR_QUALITY;
-    case ErrorKind::cancelled:
-      return DELOS_ERROR_CANCELLED;
-    case ErrorKind::internal:
-      break;
-  }
-  return DELOS_ERROR_INTERNAL;
-}
-
 int check_handle(const Handle* handle, std::uint64_t kind, const char* function) noexcept {
   if (handle == nullptr) return DELOS_ERROR_ARGUMENT;
   if (handle->magic == kind) return DELOS_SUCCESS;

@@ -43,8 +43,38 @@ struct Handle {
 };
 
 /// Keeps place + message on the handle and returns `status`.
-int fail(const Handle& handle, int status, const char* place, const char* message) noexcept;
-int status_of(ErrorKind kind) noexcept;
+inline int fail(const Handle& handle, int status, const char* place, const char* message) noexcept {
+  try {
+    handle.error = place;
+    if (*place != '\0') handle.error += ": ";
+    handle.error += message;
+  } catch (...) {
+    handle.error.clear();
+  }
+  return status;
+}
+
+inline int status_of(ErrorKind kind) noexcept {
+  switch (kind) {
+    case ErrorKind::config:
+      return DELOS_ERROR_CONFIG;
+    case ErrorKind::input:
+      return DELOS_ERROR_INPUT;
+    case ErrorKind::output:
+      return DELOS_ERROR_OUTPUT;
+    case ErrorKind::resource:
+      return DELOS_ERROR_RESOURCE;
+    case ErrorKind::state:
+      return DELOS_ERROR_STATE;
+    case ErrorKind::quality:
+      return DELOS_ERROR_QUALITY;
+    case ErrorKind::cancelled:
+      return DELOS_ERROR_CANCELLED;
+    case ErrorKind::internal:
+      break;
+  }
+  return DELOS_ERROR_INTERNAL;
+}
 
 /// An argument that can't be used; becomes DELOS_ERROR_ARGUMENT or DELOS_ERROR_STATE.
 struct Refusal {

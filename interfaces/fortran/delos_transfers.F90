@@ -17,9 +17,9 @@ module delos_transfers
   use delos_transfer_binding
   implicit none
   private
-  public :: delos_transfer, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, DELOS_LIMITER_GRADIENT, &
-    DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, DELOS_VELOCITY_VECTORS, &
-    DELOS_VELOCITY_STREAM_FUNCTION
+  public :: delos_transfer, transfer_options, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, &
+    DELOS_LIMITER_GRADIENT, DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, &
+    DELOS_VELOCITY_VECTORS, DELOS_VELOCITY_STREAM_FUNCTION
 
   ! Made once for a pair of grids, used for many fields. Keeps both grids' arrays, so that the grids
   ! may be destroyed. Without an order, a limiter, a route: the second, of gradients, by vectors.
@@ -68,7 +68,7 @@ contains
     call report_status(c_transfer_check(self%handle, from%handle, to%handle), ierr)
   end subroutine
 
-  pure function options_of(n_levels, order, limiter, route) result(options)
+  pure function transfer_options(n_levels, order, limiter, route) result(options)
     integer, intent(in) :: n_levels
     integer, intent(in), optional :: order, limiter, route
     type(delos_transfer_options) :: options
@@ -86,7 +86,7 @@ contains
     integer, intent(in), optional :: order, limiter
     integer, intent(out), optional :: ierr
     call report_status(c_transfer_apply(self%handle, from, size(from, kind=c_int64_t), to, &
-                                        size(to, kind=c_int64_t), options_of(1, order, limiter)), ierr)
+                                        size(to, kind=c_int64_t), transfer_options(1, order, limiter)), ierr)
   end subroutine
 
   ! (n_levels, n_cells) of each grid.
@@ -98,7 +98,7 @@ contains
     integer, intent(out), optional :: ierr
     call report_status(c_transfer_apply(self%handle, from, size(from, kind=c_int64_t), to, &
                                         size(to, kind=c_int64_t), &
-                                        options_of(size(from, 1), order, limiter)), ierr)
+                                        transfer_options(size(from, 1), order, limiter)), ierr)
   end subroutine
 
   ! Velocities along the edges' normals, (n_edges) of each grid.
@@ -110,7 +110,7 @@ contains
     integer, intent(out), optional :: ierr
     call report_status(c_transfer_velocity(self%handle, from, size(from, kind=c_int64_t), to, &
                                            size(to, kind=c_int64_t), &
-                                           options_of(1, order, limiter, route)), ierr)
+                                           transfer_options(1, order, limiter, route)), ierr)
   end subroutine
 
   ! (n_levels, n_edges) of each grid.
@@ -122,7 +122,7 @@ contains
     integer, intent(out), optional :: ierr
     call report_status(c_transfer_velocity(self%handle, from, size(from, kind=c_int64_t), to, &
                                            size(to, kind=c_int64_t), &
-                                           options_of(size(from, 1), order, limiter, route)), ierr)
+                                           transfer_options(size(from, 1), order, limiter, route)), ierr)
   end subroutine
 
   ! Pairs of cells that overlap.

@@ -3,11 +3,11 @@
 ! model uses.
 module delos_mpi_binding
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int32_t, &
-    c_int64_t, c_null_funptr, c_null_ptr, c_ptr, c_size_t
+    c_int64_t, c_null_funptr, c_null_ptr, c_ptr
   implicit none
   public
   private :: c_char, c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, &
-    c_ptr, c_size_t
+    c_ptr
 
   ! delos_mpi_options, member by member.
   type, bind(c) :: c_options
@@ -74,12 +74,6 @@ module delos_mpi_binding
       import :: c_ptr
       type(c_ptr), value :: grid
       type(c_ptr) :: text
-    end function
-
-    pure function c_strlen(text) bind(c, name="strlen") result(n)
-      import :: c_ptr, c_size_t
-      type(c_ptr), value :: text
-      integer(c_size_t) :: n
     end function
 
     function c_generation(grid, generation) bind(c, name="delos_mpi_grid_generation") result(status)

@@ -21,13 +21,20 @@ enum class Call : std::int64_t {
   read_restart,
   finalize,
   transfer,
-  transfer_velocity
+  transfer_velocity,
+  none
 };
 
-constexpr std::array kCalls = {
-    "initialize(advertise)", "initialize(realize)", "initialize", "run",
-    "write_restart",         "read_restart",        "finalize",   "transfer",
-    "transfer_velocity"};
+constexpr std::array kCalls = {"initialize(advertise)",
+                               "initialize(realize)",
+                               "initialize",
+                               "run",
+                               "write_restart",
+                               "read_restart",
+                               "finalize",
+                               "transfer",
+                               "transfer_velocity",
+                               "something with arguments that can't be used"};
 
 /// Where a clock is and goes, as plain integers.
 std::vector<std::int64_t> step_of(const Clock& clock) {
@@ -77,9 +84,13 @@ struct DistributedComponent::Impl {
     });
   }
 
-  void enter(Call call) const {
+  Communicator::Range called_by_all(Call call) const {
     const std::array number{static_cast<std::int64_t>(call)};
-    const Communicator::Range called = team->range(number);
+    return team->range(number);
+  }
+
+  void enter(Call call) const {
+    const Communicator::Range called = called_by_all(call);
     if (called.is_same_everywhere()) return;
     const auto name = [](std::int64_t of) { return kCalls.at(static_cast<std::size_t>(of)); };
     refuse(std::string("the processes called ") + name(called.least[0]) + " and " +
@@ -264,6 +275,10 @@ struct DistributedComponent::Impl {
     return parts->scatter(to, location, n_levels);
   }
 };
+
+void Distribution::pass_over(const DistributedComponent& component) {
+  static_cast<void>(component.impl_->called_by_all(Call::none));
+}
 
 DistributedComponent::DistributedComponent(MPI_Comm communicator,
                                            const std::function<Config()>& configure,

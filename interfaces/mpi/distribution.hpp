@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "communicator.hpp"
-#include "delos/mpi.hpp"
+#include "delos/distributed.hpp"
 
 namespace delos::mpi {
 
@@ -44,6 +44,9 @@ struct Distribution {
   /// distribute() over a communicator of ours, with options that were checked.
   static DistributedGrid make(std::shared_ptr<const Communicator> team,
                               const std::function<Grid()>& make_grid, const Options& options);
+  /// In the place of a collective call whose arguments this process can't use: the others don't
+  /// wait for it, and throw Error(state), which names both calls.
+  static void pass_over(const DistributedComponent& component);
 };
 
 }  // namespace delos::mpi

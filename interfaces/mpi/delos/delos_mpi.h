@@ -2,7 +2,7 @@
 #ifndef DELOS_DELOS_MPI_H
 #define DELOS_DELOS_MPI_H
 /* delos over MPI, for C99: a grid made once by one process of a communicator, handed out part by
- * part.
+ * part. A component of a model over MPI, delos/mpi_component.h, is included at the end.
  *
  *   delos_mpi_grid* grid;  const double* area_m2;  int64_t n;
  *   if (delos_mpi_generate_file(comm, "world_ocean.yaml", NULL, &grid) != DELOS_SUCCESS)
@@ -136,4 +136,6 @@ DELOS_C_API int delos_mpi_scatter(delos_mpi_grid* grid, const double* whole, int
 #ifdef __cplusplus
 }
 #endif
+
+#include <delos/mpi_component.h>
 #endif

@@ -113,6 +113,7 @@ class DELOS_API DistributedComponent {
   std::optional<State> whole_imports() const;
 
  private:
+  friend struct Distribution;
   struct Impl;
   std::unique_ptr<Impl> impl_;
 };

@@ -3,104 +3,18 @@
 #include <new>
 #include <utility>
 
-#include "delos/delos_mpi.h"
-#include "delos/mpi.hpp"
+#include "mpi_handle.hpp"
 
 using delos::Location;
+using delos::c::need;
 using delos::mpi::DistributedGrid;
-
-// NOLINTNEXTLINE(readability-identifier-naming): the name of the C type
-struct delos_mpi_grid {
-  std::optional<DistributedGrid> grid;
-  std::string error;
-};
+using delos::mpi::c::call;
+using delos::mpi::c::config_from_file;
+using delos::mpi::c::config_from_text;
+using delos::mpi::c::create;
+using delos::mpi::c::options_of;
 
 namespace {
-
-/// An argument that can't be used.
-struct Refusal {
-  std::string message;
-};
-
-int status_of(delos::ErrorKind kind) {
-  switch (kind) {
-    case delos::ErrorKind::config:
-      return DELOS_ERROR_CONFIG;
-    case delos::ErrorKind::input:
-      return DELOS_ERROR_INPUT;
-    case delos::ErrorKind::output:
-      return DELOS_ERROR_OUTPUT;
-    case delos::ErrorKind::resource:
-      return DELOS_ERROR_RESOURCE;
-    case delos::ErrorKind::state:
-      return DELOS_ERROR_STATE;
-    case delos::ErrorKind::quality:
-      return DELOS_ERROR_QUALITY;
-    case delos::ErrorKind::cancelled:
-      return DELOS_ERROR_CANCELLED;
-    case delos::ErrorKind::internal:
-      break;
-  }
-  return DELOS_ERROR_INTERNAL;
-}
-
-int fail(delos_mpi_grid* handle, int status, const char* message) noexcept {
-  try {
-    handle->error = message;
-  } catch (...) {
-    handle->error.clear();
-  }
-  return status;
-}
-
-/// Runs body(); what it throws becomes a status, and a text on the handle.
-template <class Body>
-int guarded(delos_mpi_grid* handle, Body&& body) noexcept {
-  try {
-    body();
-    return DELOS_SUCCESS;
-  } catch (const delos::Error& error) {
-    return fail(handle, status_of(error.kind()), error.what());
-  } catch (const Refusal& refusal) {
-    return fail(handle, DELOS_ERROR_ARGUMENT, refusal.message.c_str());
-  } catch (const std::bad_alloc&) {
-    return fail(handle, DELOS_ERROR_RESOURCE, "out of memory");
-  } catch (const std::exception& error) {
-    return fail(handle, DELOS_ERROR_INTERNAL, error.what());
-  } catch (...) {
-    return fail(handle, DELOS_ERROR_INTERNAL, "a callback threw");
-  }
-}
-
-void need(const void* argument, const char* function, const char* name) {
-  if (argument == nullptr) {
-    throw Refusal{std::string(function) + ": " + name + " is NULL: pass a valid pointer"};
-  }
-}
-
-/// A function on a part: body(grid).
-template <class Body>
-int call(delos_mpi_grid* handle, Body&& body) noexcept {
-  if (handle == nullptr) return DELOS_ERROR_ARGUMENT;
-  return guarded(handle, [&] {
-    if (!handle->grid) {
-      throw delos::Error(delos::ErrorKind::state,
-                         "this handle has no grid, since making it failed: destroy it");
-    }
-    body(*handle->grid);
-  });
-}
-
-/// Numbers beyond the three become one that LocalGrid refuses.
-Location location_of(int number) {
-  constexpr Location kKnown[] = {Location::cell, Location::edge, Location::vertex};
-  return number >= 0 && number < 3 ? kKnown[number] : Location::grid;
-}
-
-template <class Number>
-std::span<Number> field(Number* values, int64_t size) {
-  return {values, values == nullptr || size < 0 ? 0 : static_cast<std::size_t>(size)};
-}
 
 std::vector<double> weights(const delos_mpi_options& options, const delos::Grid& grid) {
   std::vector<double> out(static_cast<std::size_t>(grid.n_cells()), 0.0);
@@ -115,9 +29,13 @@ std::vector<double> weights(const delos_mpi_options& options, const delos::Grid&
   return out;
 }
 
-delos::mpi::Options options_of(const delos_mpi_options* given) {
+}  // namespace
+
+namespace delos::mpi::c {
+
+Options options_of(const delos_mpi_options* given) {
   const delos_mpi_options from = given == nullptr ? delos_mpi_options{} : *given;
-  delos::mpi::Options out;
+  Options out;
   out.generate.threads = std::max(from.n_threads, 0);
   out.root = from.root;
   out.halo_layers = from.halo_layers == 0 ? 1 : from.halo_layers;
@@ -130,29 +48,34 @@ delos::mpi::Options options_of(const delos_mpi_options* given) {
   return out;
 }
 
-template <class Configure>
-int generate(MPI_Comm comm, const delos_mpi_options* options, delos_mpi_grid** grid,
-             Configure&& configure) noexcept {
-  if (grid == nullptr) return DELOS_ERROR_ARGUMENT;
-  *grid = new (std::nothrow) delos_mpi_grid;
-  if (*grid == nullptr) return DELOS_ERROR_RESOURCE;
-  return guarded(
-      *grid, [&] { (*grid)->grid = delos::mpi::generate(comm, configure, options_of(options)); });
-}
-
-delos::Config from_file(const char* path) {
+Config config_from_file(const char* path) {
   if (path == nullptr) throw delos::Error(delos::ErrorKind::config, "path is NULL: name a file.");
   return delos::Config::from_file(path);
 }
 
-delos::Config from_text(const char* yaml, const char* folder) {
+Config config_from_text(const char* yaml, const char* folder) {
   if (yaml == nullptr) throw delos::Error(delos::ErrorKind::config, "yaml is NULL: give a text.");
   return delos::Config::from_text(yaml, "configuration", folder == nullptr ? "." : folder);
 }
 
+}  // namespace delos::mpi::c
+
+namespace {
+
+/// Numbers beyond the three become one that LocalGrid refuses.
+Location location_of(int number) {
+  constexpr Location kKnown[] = {Location::cell, Location::edge, Location::vertex};
+  return number >= 0 && number < 3 ? kKnown[number] : Location::grid;
+}
+
+template <class Number>
+std::span<Number> field(Number* values, int64_t size) {
+  return {values, values == nullptr || size < 0 ? 0 : static_cast<std::size_t>(size)};
+}
+
 template <class Number>
 int exchange(delos_mpi_grid* grid, std::span<Number> values, int location, int n_components) {
-  return call(grid, [&](const DistributedGrid& own) {
+  return call(grid, __func__, [&](const DistributedGrid& own) {
     own.exchange(values, location_of(location), n_components);
   });
 }
@@ -161,7 +84,10 @@ int exchange(delos_mpi_grid* grid, std::span<Number> values, int location, int n
 
 int delos_mpi_generate_file(MPI_Comm comm, const char* path, const delos_mpi_options* options,
                             delos_mpi_grid** grid) {
-  return generate(comm, options, grid, [&] { return from_file(path); });
+  return create(__func__, grid, [&] {
+    return delos::mpi::generate(
+        comm, [&] { return config_from_file(path); }, options_of(options));
+  });
 }
 int delos_mpi_generate_file_f(MPI_Fint comm, const char* path, const delos_mpi_options* options,
                               delos_mpi_grid** grid) {
@@ -169,7 +95,10 @@ int delos_mpi_generate_file_f(MPI_Fint comm, const char* path, const delos_mpi_o
 }
 int delos_mpi_generate_text(MPI_Comm comm, const char* yaml, const char* folder,
                             const delos_mpi_options* options, delos_mpi_grid** grid) {
-  return generate(comm, options, grid, [&] { return from_text(yaml, folder); });
+  return create(__func__, grid, [&] {
+    return delos::mpi::generate(
+        comm, [&] { return config_from_text(yaml, folder); }, options_of(options));
+  });
 }
 int delos_mpi_generate_text_f(MPI_Fint comm, const char* yaml, const char* folder,
                               const delos_mpi_options* options, delos_mpi_grid** grid) {
@@ -182,29 +111,28 @@ int delos_mpi_grid_destroy(delos_mpi_grid* grid) {
 }
 
 const char* delos_mpi_last_error(const delos_mpi_grid* grid) {
-  return grid == nullptr ? "the handle is NULL: the call that should have made it failed"
-                         : grid->error.c_str();
+  return delos::mpi::c::text_of(grid);
 }
 
 int delos_mpi_grid_generation(delos_mpi_grid* grid, int64_t* generation) {
-  return call(grid, [&](const DistributedGrid& own) {
-    need(generation, "delos_mpi_grid_generation", "generation");
+  return call(grid, __func__, [&](const DistributedGrid& own) {
+    need(generation, "generation");
     *generation = own.generation();
   });
 }
 
 int delos_mpi_grid_digest(delos_mpi_grid* grid, const char** text) {
   if (text != nullptr) *text = nullptr;
-  return call(grid, [&](const DistributedGrid& own) {
-    need(text, "delos_mpi_grid_digest", "text");
+  return call(grid, __func__, [&](const DistributedGrid& own) {
+    need(text, "text");
     *text = own.digest().c_str();
   });
 }
 
 #define DELOS_COUNT(name)                                                         \
   int delos_mpi_grid_##name(delos_mpi_grid* grid, int location, int64_t* value) { \
-    return call(grid, [&](const DistributedGrid& own) {                           \
-      need(value, "delos_mpi_grid_" #name, "n");                                  \
+    return call(grid, __func__, [&](const DistributedGrid& own) {                 \
+      need(value, "n");                                                           \
       *value = own.local().name(location_of(location));                           \
     });                                                                           \
   }
@@ -217,8 +145,8 @@ DELOS_COUNT(n_global)
   int delos_mpi_grid_##name(delos_mpi_grid* grid, int location, const type** values, \
                             int64_t* size) {                                         \
     if (values != nullptr) *values = nullptr;                                        \
-    return call(grid, [&](const DistributedGrid& own) {                              \
-      need(values, "delos_mpi_grid_" #name, "values");                               \
+    return call(grid, __func__, [&](const DistributedGrid& own) {                    \
+      need(values, "values");                                                        \
       const std::span<const type> list = own.local().name(location_of(location));    \
       *values = list.data();                                                         \
       if (size != nullptr) *size = static_cast<int64_t>(list.size());                \
@@ -237,8 +165,8 @@ DELOS_LIST(receive_ids, int32_t)
 #define DELOS_ARRAY(name, type)                                                         \
   int delos_mpi_grid_##name(delos_mpi_grid* grid, const type** values, int64_t* size) { \
     if (values != nullptr) *values = nullptr;                                           \
-    return call(grid, [&](const DistributedGrid& own) {                                 \
-      need(values, "delos_mpi_grid_" #name, "values");                                  \
+    return call(grid, __func__, [&](const DistributedGrid& own) {                       \
+      need(values, "values");                                                           \
       const std::span<const type> array = own.local().name();                           \
       *values = array.data();                                                           \
       if (size != nullptr) *size = static_cast<int64_t>(array.size());                  \
@@ -265,23 +193,25 @@ int delos_mpi_exchange_int32(delos_mpi_grid* grid, int32_t* values, int64_t size
 // NOLINTBEGIN(readability-function-size): C has no structs of arguments to spare
 int delos_mpi_gather(delos_mpi_grid* grid, const double* values, int64_t size, int location,
                      int n_components, double* whole) {
-  return call(grid, [&](const DistributedGrid& own) {
+  return call(grid, __func__, [&](const DistributedGrid& own) {
     const auto all = own.gather(field(values, size), location_of(location), n_components);
     if (own.local().part() != own.root()) return;
-    need(whole, "delos_mpi_gather", "whole");
+    need(whole, "whole");
     std::copy(all.begin(), all.end(), whole);
   });
 }
 
 int delos_mpi_scatter(delos_mpi_grid* grid, const double* whole, int location, int n_components,
                       double* values, int64_t size) {
-  return call(grid, [&](const DistributedGrid& own) {
+  return call(grid, __func__, [&](const DistributedGrid& own) {
     const Location at = location_of(location);
     const auto part = own.scatter(
         field(whole, own.local().n_global(at) * std::max(n_components, 0)), at, n_components);
     if (field(values, size).size() != part.size()) {
-      throw Refusal{"delos_mpi_scatter: size = " + std::to_string(size) + ": must be n_local * " +
-                    std::to_string(n_components) + " = " + std::to_string(part.size())};
+      throw delos::c::Refusal{DELOS_ERROR_ARGUMENT, "size = " + std::to_string(size) +
+                                                        ": must be n_local * " +
+                                                        std::to_string(n_components) + " = " +
+                                                        std::to_string(part.size())};
     }
     std::copy(part.begin(), part.end(), values);
   });
