@@ -20,14 +20,6 @@ constexpr double kStretch = 1.5;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
-double sum_of_column(const Transposed& by_source, const Overlaps& overlaps, std::int64_t source) {
-  double sum = 0.0;
-  for (auto k = by_source.offsets[at(source)]; k < by_source.offsets[at(source) + 1]; ++k) {
-    sum += overlaps.area_m2[at(by_source.entry[at(k)])];
-  }
-  return sum;
-}
-
 // Summed in two parts: a plain sum is not good to the last place.
 double total(parallel::Executor& exec, const Array<double>& areas) {
   const auto part = [&](std::int64_t begin, std::int64_t end) {
@@ -41,72 +33,51 @@ double total(parallel::Executor& exec, const Array<double>& areas) {
       .hi;
 }
 
-double largest_misfit(parallel::Executor& exec, const Transposed& by_source,
-                      const Overlaps& overlaps, double ratio) {
-  const auto misfit = [&](std::int64_t begin, std::int64_t end) {
-    double largest = 0.0;
-    for (std::int64_t i = begin; i < end; ++i) {
-      const double wanted = ratio * overlaps.source_area_m2[at(i)];
-      largest = std::max(largest, std::abs(sum_of_column(by_source, overlaps, i) / wanted - 1.0));
-    }
-    return largest;
-  };
-  return parallel::reduce(exec, overlaps.n_sources, kSumGrain, 0.0, misfit,
-                          [](double a, double b) { return std::max(a, b); });
-}
-
-void scale_rows(parallel::Executor& exec, double stretch, Overlaps& overlaps) {
+// Scales entries by the factors of their columns, then rows to their sums.
+void scale_rows(parallel::Executor& exec, std::span<const double> factor, Overlaps& overlaps) {
   parallel::for_index(exec, overlaps.n_targets, kSumGrain, [&](std::int64_t i) {
     const auto begin = overlaps.offsets[at(i)], end = overlaps.offsets[at(i) + 1];
     double sum = 0.0;
-    for (auto k = begin; k < end; ++k) sum += overlaps.area_m2[at(k)];
-    const double factor = 1.0 + stretch * (overlaps.target_area_m2[at(i)] / sum - 1.0);
-    for (auto k = begin; k < end; ++k) overlaps.area_m2[at(k)] *= factor;
+    for (auto k = begin; k < end; ++k) {
+      overlaps.area_m2[at(k)] *= factor[at(overlaps.source[at(k)])];
+      sum += overlaps.area_m2[at(k)];
+    }
+    const double scale = overlaps.target_area_m2[at(i)] / sum;
+    for (auto k = begin; k < end; ++k) overlaps.area_m2[at(k)] *= scale;
   });
 }
 
-void scale_columns(parallel::Executor& exec, const Transposed& by_source, double ratio,
-                   Overlaps& overlaps) {
-  parallel::for_index(exec, overlaps.n_sources, kSumGrain, [&](std::int64_t i) {
-    const double wanted = ratio * overlaps.source_area_m2[at(i)];
-    const double sum = sum_of_column(by_source, overlaps, i);
-    const double factor = 1.0 + kStretch * (wanted / sum - 1.0);
-    for (auto k = by_source.offsets[at(i)]; k < by_source.offsets[at(i) + 1]; ++k) {
-      overlaps.area_m2[at(by_source.entry[at(k)])] *= factor;
+// What columns are to be scaled by, stretched; the largest misfit before.
+double find_factors(parallel::Executor& exec, const ByKey& by_source, const Overlaps& overlaps,
+                    double ratio, std::span<double> factor) {
+  const auto block = [&](std::int64_t begin, std::int64_t end) {
+    double largest = 0.0;
+    for (std::int64_t i = begin; i < end; ++i) {
+      double sum = 0.0;
+      for (auto k = by_source.offsets[at(i)]; k < by_source.offsets[at(i) + 1]; ++k) {
+        sum += overlaps.area_m2[at(by_source.entry[at(k)])];
+      }
+      const double misfit = ratio * overlaps.source_area_m2[at(i)] / sum - 1.0;
+      largest = std::max(largest, std::abs(misfit));
+      factor[at(i)] = 1.0 + kStretch * misfit;
     }
-  });
+    return largest;
+  };
+  return parallel::reduce(exec, overlaps.n_sources, kSumGrain, 0.0, block,
+                          [](double a, double b) { return std::max(a, b); });
 }
 
 }  // namespace
 
-Transposed transpose(const Overlaps& overlaps) {
-  Transposed result;
-  result.offsets.assign(at(overlaps.n_sources) + 1, 0);
-  for (const Index source : overlaps.source) ++result.offsets[at(source) + 1];
-  for (std::size_t i = 1; i < result.offsets.size(); ++i) {
-    result.offsets[i] += result.offsets[i - 1];
-  }
-  Array<std::int64_t> next(result.offsets.begin(), result.offsets.end() - 1);
-  result.entry.resize(overlaps.source.size());
-  for (std::size_t entry = 0; entry < overlaps.source.size(); ++entry) {
-    const auto place = next[at(overlaps.source[entry])]++;
-    result.entry[at(place)] = static_cast<std::int64_t>(entry);
-  }
-  return result;
-}
-
-int balance(parallel::Executor& exec, const Transposed& by_source, Overlaps& overlaps) {
+int balance(parallel::Executor& exec, const ByKey& by_source, Overlaps& overlaps) {
   // The grids' own areas of the surface differ by rounding; sums of rows and of columns can't.
   const double ratio = total(exec, overlaps.target_area_m2) / total(exec, overlaps.source_area_m2);
-  int round = 0;
-  for (; round < kMostRounds; ++round) {
-    scale_rows(exec, 1.0, overlaps);
-    if (largest_misfit(exec, by_source, overlaps, ratio) <= kBalanced) break;
-    scale_columns(exec, by_source, ratio, overlaps);
-    scale_rows(exec, kStretch, overlaps);
+  Array<double> factor(at(overlaps.n_sources), 1.0);
+  for (int round = 0;; ++round) {
+    scale_rows(exec, factor, overlaps);
+    const double misfit = find_factors(exec, by_source, overlaps, ratio, factor);
+    if (misfit <= kBalanced || round == kMostRounds) return round;
   }
-  scale_rows(exec, 1.0, overlaps);
-  return round;
 }
 
 }  // namespace delos::remap

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "remap/clip.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.hpp"
@@ -72,7 +73,15 @@ std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon
     clipping_.push_back(frame_.local(tiling.corner(id)));
   }
   const Vec3 centre = frame_.local(tiling.centres()[static_cast<std::size_t>(polygon)]);
-  current_ = subject_;
+  // Each side adds one corner at most.
+  const std::size_t most = subject_.size() + clipping_.size();
+  if (current_.size() < most) {
+    current_.resize(most);
+    next_.resize(most);
+    distance_.resize(most);
+  }
+  n_ = subject_.size();
+  std::copy(subject_.begin(), subject_.end(), current_.begin());
   for (std::size_t k = 0; k < clipping_.size(); ++k) {
     const Vec3& from = clipping_[k == 0 ? clipping_.size() - 1 : k - 1];
     const Vec3 line = from.cross(clipping_[k]);
@@ -81,36 +90,36 @@ std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon
     if (length < kShortest || !(line.dot(centre) > 0.0)) continue;
     if (!cut(line, kOnSide * length, static_cast<Index>(k))) return {};
   }
-  return current_;
+  return {current_.data(), n_};
 }
 
 // Sutherland & Hodgman 1974 (doi:10.1145/360767.360802): keeps what lies left of the line.
 bool Clipper::cut(const Vec3& line, double on_side, Index side) {
-  distance_.resize(current_.size());
-  bool any_inside = false, any_outside = false;
-  for (std::size_t k = 0; k < current_.size(); ++k) {
-    const double d = (line.x() * current_[k].x + line.y() * current_[k].y) + line.z();
-    distance_[k] = d;
-    any_inside |= d > on_side;
-    any_outside |= d < -on_side;
+  const Corner* const now = current_.data();
+  double* const distance = distance_.data();
+  double least = on_side, most = -on_side;
+  for (std::size_t k = 0; k < n_; ++k) {
+    distance[k] = (line.x() * now[k].x + line.y() * now[k].y) + line.z();
+    least = std::min(least, distance[k]);
+    most = std::max(most, distance[k]);
   }
-  if (!any_inside || !any_outside) return any_inside;
-  next_.clear();
-  for (std::size_t k = 0; k < current_.size(); ++k) {
-    const std::size_t l = k + 1 == current_.size() ? 0 : k + 1;
-    const Corner &p = current_[k], &q = current_[l];
-    const double from = distance_[k], to = distance_[l];
+  if (most <= on_side) return false;
+  if (least >= -on_side) return true;
+  Corner* kept = next_.data();
+  for (std::size_t k = 0; k < n_; ++k) {
+    const std::size_t l = k + 1 == n_ ? 0 : k + 1;
+    const Corner &p = now[k], &q = now[l];
+    const double from = distance[k], to = distance[l];
     const bool leaves = to < -on_side;
-    if (from >= -on_side) {
-      next_.push_back({p.x, p.y, leaves && from <= on_side ? side : p.side});
-    }
+    if (from >= -on_side) *kept++ = {p.x, p.y, leaves && from <= on_side ? side : p.side};
     if ((from > on_side && leaves) || (from < -on_side && to > on_side)) {
       const double t = from / (from - to);
-      next_.push_back({p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), leaves ? side : p.side});
+      *kept++ = {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), leaves ? side : p.side};
     }
   }
+  n_ = static_cast<std::size_t>(kept - next_.data());
   std::swap(current_, next_);
-  return current_.size() >= 3;
+  return n_ >= 3;
 }
 
 double Clipper::area(const Ellipsoid& surface, std::span<const Corner> corners) const {
@@ -129,21 +138,22 @@ double Clipper::area(const Ellipsoid& surface, std::span<const Corner> corners) 
 
 double Clipper::part_of_side(std::span<const Corner> corners, std::size_t k) const {
   const Corner &p = corners[k], &q = corners[k + 1 == corners.size() ? 0 : k + 1];
-  const auto length = [](double x, double y) { return std::sqrt(x * x + y * y); };
-  const double part = length(q.x - p.x, q.y - p.y);
+  // Of differences along one line any norm gives the ratio.
+  const double part = std::abs(q.x - p.x) + std::abs(q.y - p.y);
   const bool is_own = p.side < 0;
   const auto to = static_cast<std::size_t>(is_own ? ~p.side : p.side);
   const std::size_t n = is_own ? subject_.size() : clipping_.size();
   const std::size_t from = to == 0 ? n - 1 : to - 1;
-  double whole = 0.0;
   if (is_own) {
-    whole = length(subject_[to].x - subject_[from].x, subject_[to].y - subject_[from].y);
-  } else {
-    const Vec3 &a = clipping_[from], &b = clipping_[to];
-    if (!(a.z() > 0.0 && b.z() > 0.0)) return 0.0;  // round the body: coarse beyond caring
-    whole = length(b.x() / b.z() - a.x() / a.z(), b.y() / b.z() - a.y() / a.z());
+    const Corner &a = subject_[from], &b = subject_[to];
+    const double whole = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+    return whole > 0.0 ? part / whole : 0.0;
   }
-  return whole > 0.0 ? part / whole : 0.0;
+  const Vec3 &a = clipping_[from], &b = clipping_[to];
+  if (!(a.z() > 0.0 && b.z() > 0.0)) return 0.0;  // round the body: coarse beyond caring
+  const double whole =
+      std::abs(b.x() * a.z() - a.x() * b.z()) + std::abs(b.y() * a.z() - a.y() * b.z());
+  return whole > 0.0 ? part * (a.z() * b.z()) / whole : 0.0;
 }
 
 Vec3 Clipper::middle(const Ellipsoid& surface, std::span<const Corner> corners) const {

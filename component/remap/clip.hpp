@@ -56,7 +56,8 @@ class Clipper {
   bool cut(const Vec3& line, double on_side, Index side);
 
   Frame frame_{Vec3(0, 0, 1)};
-  std::vector<Corner> subject_, current_, next_;
+  std::vector<Corner> subject_, current_, next_;  // of the last two n_ count
+  std::size_t n_ = 0;
   std::vector<Vec3> clipping_;
   std::vector<double> distance_;
 };

@@ -19,6 +19,7 @@ constexpr std::size_t kExpected = 6;  // overlaps a target between grids of like
 
 // Corners nearer than this are the same: the last bits depend on the order of a triangle's corners.
 constexpr double kSame = 1e-15;
+constexpr double kOtherArea = 1e-5;
 // A common area below this part of the smaller polygon is rounding.
 constexpr double kSliver = 1e-13;
 // Sums that miss the area by more mean that something was not found: look again, farther.
@@ -46,6 +47,8 @@ struct Plan {
 bool are_twins(const Tiling& a, std::int64_t i, const Tiling& b, std::int64_t j) {
   const auto p = a.corners(i), q = b.corners(j);
   if (p.size() != q.size()) return false;
+  // Sooner known than by positions, and far from what rounding does to a twin's area.
+  if (std::abs(a.area_m2()[at(i)] / b.area_m2()[at(j)] - 1.0) > kOtherArea) return false;
   const auto same = [&](std::size_t k, std::size_t l) {
     return (a.corner(p[k]) - b.corner(q[l])).cwiseAbs().maxCoeff() <= kSame;
   };
@@ -255,7 +258,7 @@ void collect(Context& context, const Plan& plan, Overlaps& overlaps) {
 
 // Makes the middles relative: sums of area times middle over a source are then 0, whatever the
 // accuracy of the middles, which is what keeps the mass of the second order.
-void centre_middles(parallel::Executor& exec, const Transposed& by_source, Overlaps& overlaps) {
+void centre_middles(parallel::Executor& exec, const ByKey& by_source, Overlaps& overlaps) {
   overlaps.source_middle.resize(at(overlaps.n_sources));
   parallel::for_index(exec, overlaps.n_sources, kCopyGrain, [&](std::int64_t source) {
     const std::int64_t begin = by_source.offsets[at(source)],
@@ -291,9 +294,9 @@ Overlaps intersect(Context& context, const Tiling& source, const Tiling& target)
   overlaps.source_area_m2.assign(source.area_m2().begin(), source.area_m2().end());
   overlaps.target_area_m2.assign(target.area_m2().begin(), target.area_m2().end());
   collect(context, plan, overlaps);
-  const Transposed by_source = transpose(overlaps);
-  overlaps.n_balancing = balance(context.exec, by_source, overlaps);
-  centre_middles(context.exec, by_source, overlaps);
+  const ByKey of_sources = by_source(context.exec, overlaps);
+  overlaps.n_balancing = balance(context.exec, of_sources, overlaps);
+  centre_middles(context.exec, of_sources, overlaps);
   return overlaps;
 }
 

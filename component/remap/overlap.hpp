@@ -5,6 +5,7 @@
 
 #include "core/array.hpp"
 #include "core/progress.hpp"
+#include "remap/by_key.hpp"
 #include "remap/tiling.hpp"
 
 namespace delos::remap {
@@ -40,14 +41,12 @@ struct Overlaps {
 Overlaps intersect(Context& context, const Tiling& source, const Tiling& target);
 
 /// Overlaps seen from the sources: sorted by (source, target).
-struct Transposed {
-  Array<std::int64_t> offsets;  ///< [n_sources + 1]
-  Array<std::int64_t> entry;    ///< [size()] position in the overlaps
-};
-Transposed transpose(const Overlaps& overlaps);
+inline ByKey by_source(parallel::Executor& exec, const Overlaps& overlaps) {
+  return sort_by_key(exec, overlaps.source, overlaps.n_sources);
+}
 
 /// Scales the areas by rows and columns (Sinkhorn 1964, doi:10.1214/aoms/1177703591) until both
 /// sums are those of the grids: rounding alone is spread. Returns the number of rounds.
-int balance(parallel::Executor& exec, const Transposed& by_source, Overlaps& overlaps);
+int balance(parallel::Executor& exec, const ByKey& by_source, Overlaps& overlaps);
 
 }  // namespace delos::remap

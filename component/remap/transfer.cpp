@@ -2,6 +2,8 @@
 #include "remap/transfer.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace delos::remap {
 namespace {
@@ -76,6 +78,30 @@ double row_value(const Rows& rows, std::int64_t i, std::span<const double> field
     sum += overlaps.area_m2[at(k)] * value;
   }
   return reference + sum / area;
+}
+
+// The same over the sources that are not missing.
+double valid_value(const Rows& rows, std::int64_t i, std::span<const double> field,
+                   std::span<const Vec3> gradients, double least_valid) {
+  const Overlaps& overlaps = rows.overlaps;
+  double area = 0.0, valid = 0.0, sum = 0.0, reference = 0.0, largest = 0.0;
+  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
+    area += overlaps.area_m2[at(k)];
+    const double value = field[at(rows.source(k))];
+    if (std::isnan(value)) continue;
+    valid += overlaps.area_m2[at(k)];
+    if (overlaps.area_m2[at(k)] <= largest) continue;
+    largest = overlaps.area_m2[at(k)];
+    reference = value;
+  }
+  if (valid == 0.0 || valid < least_valid * area) return std::numeric_limits<double>::quiet_NaN();
+  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
+    const std::size_t source = at(rows.source(k));
+    if (std::isnan(field[source])) continue;
+    sum += overlaps.area_m2[at(k)] *
+           (field[source] - reference + gradients[source].dot(overlaps.middle[at(k)]));
+  }
+  return reference + sum / valid;
 }
 
 // Range of the sources that a target covers; to second order with those of their neighbours.
@@ -160,7 +186,7 @@ Transfer::Transfer(Context& context, const Tiling& source, const Tiling& target,
 
 void Transfer::add_second_order(parallel::Executor& exec, const Tiling& source) {
   if (!stencils_.offsets.empty()) return;
-  by_source_ = transpose(overlaps_);
+  by_source_ = by_source(exec, overlaps_);
   stencils_ = gradient_stencils(exec, source, overlaps_);
 }
 
@@ -202,16 +228,21 @@ Weights Transfer::weights(parallel::Executor& exec, Order order) const {
   return weights;
 }
 
+void Transfer::check_sizes(std::size_t n_source, std::size_t n_target,
+                           std::int64_t n_levels) const {
+  DELOS_CHECK(n_levels >= 1, ErrorKind::input, "n_levels = ", n_levels,
+              ": a polygon has at least one value.");
+  DELOS_CHECK(static_cast<std::int64_t>(n_source) == n_levels * overlaps_.n_sources &&
+                  static_cast<std::int64_t>(n_target) == n_levels * overlaps_.n_targets,
+              ErrorKind::input, "a transfer from ", overlaps_.n_sources, " to ",
+              overlaps_.n_targets, " polygons of ", n_levels, " values was given fields of ",
+              n_source, " and ", n_target, " values: the fields belong to other grids.");
+}
+
 void Transfer::apply(parallel::Executor& exec, std::span<const double> source,
                      std::span<double> target, const TransferOptions& options) const {
   const std::int64_t n_levels = options.n_levels;
-  DELOS_CHECK(n_levels >= 1, ErrorKind::input, "n_levels = ", n_levels,
-              ": a polygon has at least one value.");
-  DELOS_CHECK(static_cast<std::int64_t>(source.size()) == n_levels * overlaps_.n_sources &&
-                  static_cast<std::int64_t>(target.size()) == n_levels * overlaps_.n_targets,
-              ErrorKind::input, "a transfer from ", overlaps_.n_sources, " to ",
-              overlaps_.n_targets, " polygons of ", n_levels, " values was given fields of ",
-              source.size(), " and ", target.size(), " values: the fields belong to other grids.");
+  check_sizes(source.size(), target.size(), n_levels);
   require(options.order);
   if (n_levels == 1) return apply_level(exec, source, target, options);
   Array<double> from(at(overlaps_.n_sources)), to(at(overlaps_.n_targets));
@@ -248,6 +279,40 @@ void Transfer::apply_level(parallel::Executor& exec, std::span<const double> sou
     }
   });
   if (is_assured) assure_sum(exec, overlaps_, bounds, target);
+}
+
+// NOLINTNEXTLINE(readability-function-size): two fields, and what is done with what they lack
+void Transfer::apply_valid(parallel::Executor& exec, std::span<const double> source,
+                           std::span<double> target, const TransferOptions& options,
+                           double least_valid) const {
+  check_sizes(source.size(), target.size(), options.n_levels);
+  require(options.order);
+  DELOS_CHECK(options.n_levels == 1 && options.limiter != Limiter::assured_sum, ErrorKind::input,
+              "a field with missing values can't be given an assured sum, nor be one of several "
+              "levels: take the limiter of gradients, and each level by itself.");
+  Array<Vec3> slopes(source.size(), Vec3(0, 0, 0));
+  const bool is_second = options.order == Order::second;
+  if (is_second) slopes = limited_gradients(exec, source, options);
+  // A missing neighbour has made the gradient NaN.
+  parallel::for_index(exec, overlaps_.n_sources, kGrain, [&](std::int64_t j) {
+    if (!slopes[at(j)].allFinite()) slopes[at(j)] = Vec3::Zero();
+  });
+  const bool is_limited = is_second && options.limiter == Limiter::gradient;
+  const Array<Range> near = is_limited ? ranges(exec, stencils_, source) : Array<Range>{};
+  parallel::for_index(exec, overlaps_.n_targets, kGrain, [&](std::int64_t i) {
+    target[at(i)] = valid_value({overlaps_}, i, source, slopes, least_valid);
+    if (!is_limited || std::isnan(target[at(i)])) return;
+    Range range{target[at(i)], target[at(i)]};
+    bool has_any = false;
+    for (auto k = overlaps_.offsets[at(i)]; k < overlaps_.offsets[at(i) + 1]; ++k) {
+      const std::size_t j = at(overlaps_.source[at(k)]);
+      if (std::isnan(source[j])) continue;
+      if (!has_any) range = near[j];
+      range.add(near[j]);
+      has_any = true;
+    }
+    target[at(i)] = std::clamp(target[at(i)], range.low, range.high);  // of rounding
+  });
 }
 
 Array<Vec3> Transfer::limited_gradients(parallel::Executor& exec, std::span<const double> source,

@@ -54,16 +54,24 @@ class Transfer {
   /// number of threads. Error(input) when a size does not fit, Error(state) as weights().
   void apply(parallel::Executor& exec, std::span<const double> source, std::span<double> target,
              const TransferOptions& options = {}) const;
+  /// As apply, of one level, where NaN means missing: a target gets the mean over its valid part,
+  /// NaN where that is less than `least_valid` of its area. Sources with a missing neighbour have
+  /// no gradient; the sum of value times valid area is kept, but for what targets below
+  /// `least_valid` cover. Error(input) for Limiter::assured_sum, which has to know all.
+  void apply_valid(parallel::Executor& exec, std::span<const double> source,
+                   std::span<double> target, const TransferOptions& options,
+                   double least_valid = 0.5) const;
 
  private:
   void require(Order order) const;
   void apply_level(parallel::Executor& exec, std::span<const double> source,
                    std::span<double> target, const TransferOptions& options) const;
+  void check_sizes(std::size_t n_source, std::size_t n_target, std::int64_t n_levels) const;
   Array<Vec3> limited_gradients(parallel::Executor& exec, std::span<const double> source,
                                 const TransferOptions& options) const;
 
   Overlaps overlaps_;
-  Transposed by_source_;
+  ByKey by_source_;
   GradientStencils stencils_;
 };
 

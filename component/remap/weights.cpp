@@ -2,6 +2,7 @@
 #include "remap/weights.hpp"
 
 #include <cmath>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -57,23 +58,25 @@ void apply(parallel::Executor& exec, const Weights& weights, std::span<const dou
   });
 }
 
-Weights transpose(const Weights& weights) {
+Weights transpose(parallel::Executor& exec, const Weights& weights) {
+  Array<Index> row_of(weights.column.size());
+  parallel::for_index(exec, weights.n_rows(), kRowGrain, [&](std::int64_t row) {
+    for (auto k = weights.offsets[at(row)]; k < weights.offsets[at(row) + 1]; ++k) {
+      row_of[at(k)] = static_cast<Index>(row);
+    }
+  });
+  ByKey by_column = sort_by_key(exec, weights.column, weights.n_columns);
   Weights result;
   result.n_columns = weights.n_rows();
-  result.offsets.assign(at(weights.n_columns) + 1, 0);
-  for (const Index column : weights.column) ++result.offsets[at(column) + 1];
-  for (std::size_t i = 1; i < result.offsets.size(); ++i)
-    result.offsets[i] += result.offsets[i - 1];
-  Array<std::int64_t> next(result.offsets.begin(), result.offsets.end() - 1);
+  result.offsets = std::move(by_column.offsets);
   result.column.resize(weights.column.size());
   result.value.resize(weights.value.size());
-  for (std::int64_t row = 0; row < weights.n_rows(); ++row) {
-    for (std::int64_t k = weights.offsets[at(row)]; k < weights.offsets[at(row) + 1]; ++k) {
-      const std::size_t place = at(next[at(weights.column[at(k)])]++);
-      result.column[place] = static_cast<Index>(row);
-      result.value[place] = weights.value[at(k)];
-    }
-  }
+  parallel::for_index(exec, static_cast<std::int64_t>(row_of.size()), kRowGrain,
+                      [&](std::int64_t k) {
+                        const std::size_t entry = at(by_column.entry[at(k)]);
+                        result.column[at(k)] = row_of[entry];
+                        result.value[at(k)] = weights.value[entry];
+                      });
   return result;
 }
 

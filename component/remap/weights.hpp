@@ -29,6 +29,6 @@ void apply(parallel::Executor& exec, const Weights& weights, std::span<const dou
            std::span<double> target);
 
 /// The transposed matrix (the adjoint of the transfer), W^T: [n_columns] rows.
-Weights transpose(const Weights& weights);
+Weights transpose(parallel::Executor& exec, const Weights& weights);
 
 }  // namespace delos::remap

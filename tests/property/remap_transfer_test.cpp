@@ -4,6 +4,8 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "support/sample_fields.hpp"
 
@@ -127,7 +129,7 @@ TEST_CASE("the matrix of an order does what its transfer does, and its adjoint f
     }
     CHECK(worst < 1e-13);
     // <other, W field> = <W^T other, field>
-    const remap::Weights turned = remap::transpose(weights);
+    const remap::Weights turned = remap::transpose(exec, weights);
     double left = 0.0, right = 0.0;
     for (std::size_t i = 0; i < direct.size(); ++i) left += other[i] * by_matrix[i];
     for (std::int64_t j = 0; j < turned.n_rows(); ++j) {
@@ -161,4 +163,79 @@ TEST_CASE("transferred fields and matrices have the same bits for any number of 
     CHECK(other.column == matrix.column);
     CHECK(other.value == matrix.value);
   }
+}
+
+TEST_CASE("what is missing stays out: constants, bounds and the mass of the valid areas") {
+  parallel::Executor exec(2);
+  const Ellipsoid surface = Ellipsoid::sphere(6371220.0);
+  const Grid a = samples::grid_of(surface, samples::shaken(surface, 4, 0.2, 1));
+  const Grid b = samples::grid_of(surface, samples::shaken(surface, 4, 0.2, 2));
+  const remap::Transfer transfer = transfer_between(a, b);
+  const double missing = std::numeric_limits<double>::quiet_NaN();
+  std::vector<double> field = samples::rough_field(a.n_cells(), 1), valid(field.size());
+  std::vector<double> constant(field.size(), 0.1);
+  for (std::size_t j = 0; j < field.size(); ++j) {
+    valid[j] = a.cell_position[j].x() < 0.3 ? 1.0 : 0.0;
+    if (valid[j] == 0.0) field[j] = constant[j] = missing;
+  }
+  const double least = 0.01, most = 1.01;  // of the field
+  std::vector<double> share(at(b.n_cells())), result(share.size());
+  transfer.apply(exec, valid, share, {Order::first, Limiter::none});
+  double mass = 0.0;
+  for (std::size_t j = 0; j < field.size(); ++j) {
+    if (valid[j] > 0.0) mass += a.cell_area_m2[j] * field[j];
+  }
+  for (const remap::TransferOptions& scheme : {kSchemes[0], kSchemes[1], kSchemes[2]}) {
+    // Any part is enough: nothing is lost.
+    transfer.apply_valid(exec, field, result, scheme, 0.0);
+    double kept = 0.0;
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      CHECK(std::isnan(result[i]) == (share[i] == 0.0));
+      if (share[i] > 0.0) kept += b.cell_area_m2[i] * share[i] * result[i];
+      if (scheme.order == Order::first || scheme.limiter == Limiter::gradient) {
+        CHECK((std::isnan(result[i]) || (result[i] >= least && result[i] <= most)));
+      }
+    }
+    CHECK(std::abs(kept / mass - 1.0) < 1e-13);
+    transfer.apply_valid(exec, constant, result, scheme);
+    for (std::size_t i = 0; i < result.size(); ++i) {
+      CHECK((share[i] < 0.5 ? std::isnan(result[i]) : result[i] == 0.1));
+    }
+  }
+  CHECK_THROWS_AS(transfer.apply_valid(exec, field, result, kSchemes[3]), Error);
+}
+
+TEST_CASE("a field without gaps is carried alike whether gaps are looked for or not") {
+  parallel::Executor exec(2);
+  const Ellipsoid surface = Ellipsoid::sphere(6371220.0);
+  const Grid a = samples::grid_of(surface, samples::shaken(surface, 3, 0.2, 1));
+  const Grid b = samples::grid_of(surface, samples::shaken(surface, 4, 0.2, 2));
+  const remap::Transfer transfer = transfer_between(a, b);
+  const std::vector<double> field = steps(a.n_cells(), 3);
+  std::vector<double> direct(at(b.n_cells())), looked(direct.size());
+  for (const remap::TransferOptions& scheme : {kSchemes[0], kSchemes[1], kSchemes[2]}) {
+    transfer.apply(exec, field, direct, scheme);
+    transfer.apply_valid(exec, field, looked, scheme);
+    CHECK(direct == looked);
+  }
+}
+
+TEST_CASE("a transfer made for the first order refuses the second until it is added") {
+  parallel::Executor exec(1);
+  Monitor monitor;
+  Context context{exec, monitor};
+  const Ellipsoid surface = Ellipsoid::sphere(6371220.0);
+  const Grid a = samples::grid_of(surface, samples::shaken(surface, 2, 0.2, 1));
+  const Grid b = samples::grid_of(surface, samples::shaken(surface, 2, 0.2, 2));
+  const remap::Tiling cells = remap::Tiling::cells(exec, a);
+  remap::Transfer transfer(context, cells, remap::Tiling::cells(exec, b), Order::first);
+  const auto field = samples::rough_field(a.n_cells(), 1);
+  std::vector<double> result(at(b.n_cells())), wanted(result.size());
+  transfer.apply(exec, field, result, kSchemes[0]);
+  CHECK_THROWS_AS(transfer.apply(exec, field, result, kSchemes[1]), Error);
+  CHECK_THROWS_AS(transfer.weights(exec, Order::second), Error);
+  transfer.add_second_order(exec, cells);
+  transfer.apply(exec, field, result, kSchemes[2]);
+  transfer_between(a, b).apply(exec, field, wanted, kSchemes[2]);
+  CHECK(result == wanted);
 }

@@ -37,13 +37,14 @@ TEST_CASE("fields of a wrong size are refused") {
 }
 
 TEST_CASE("the transposed weights have ascending columns and come back") {
+  parallel::Executor exec(2);
   const remap::Weights weights = sample_weights();
-  const remap::Weights turned = remap::transpose(weights);
+  const remap::Weights turned = remap::transpose(exec, weights);
   CHECK(turned.n_rows() == 3);
   CHECK(turned.n_columns == 4);
   CHECK(turned.offsets == Array<std::int64_t>{0, 3, 5, 7});
   CHECK(turned.column == Array<Index>{0, 1, 3, 2, 3, 1, 2});
-  const remap::Weights back = remap::transpose(turned);
+  const remap::Weights back = remap::transpose(exec, turned);
   CHECK(back.offsets == weights.offsets);
   CHECK(back.column == weights.column);
   CHECK(back.value == weights.value);
