@@ -33,7 +33,8 @@ CLI::App* add_reader(CLI::App& app, Arguments& out, Command command, const char*
       ->required();
   reader->add_option("--threads", out.threads, "threads")->check(CLI::Range(0, 4096));
   if (command == Command::plot) {
-    reader->add_option("-o,--output", out.directory, "folder for the pictures")->default_val(".");
+    // A default_val would be the folder of every command.
+    reader->add_option("-o,--output", out.directory, "folder for the pictures (default .)");
   }
   reader->callback([&out, command] { out.command = command; });
   return reader;
@@ -83,6 +84,29 @@ void add_partition(CLI::App& app, Arguments& out) {
   partition->callback([&out] { out.command = Command::partition; });
 }
 
+void add_remap(CLI::App& app, Arguments& out) {
+  CLI::App* const remap =
+      app.add_subcommand("remap", "carry fields from the cells of one grid to another's");
+  remap->add_option("GRID_FROM", out.file, "the grid file of the fields, of any kind")->required();
+  remap->add_option("GRID_TO", out.remap.to, "the grid file to carry them to")->required();
+  CLI::Option* const fields =
+      remap->add_option("FIELDS", out.remap.fields, "netCDF with float or double on the cells");
+  CLI::Option* const made = remap->add_option("OUT", out.remap.out, "the new netCDF file");
+  fields->needs(made);
+  remap->add_option("--order", out.remap.order, "1: mass kept, bounded; 2: accurate, too (default)")
+      ->check(CLI::Range(1, 2));
+  remap
+      ->add_option("--limiter", out.remap.limiter,
+                   "of order 2: gradient (default), assured_sum or none")
+      ->check(CLI::IsMember({"gradient", "assured_sum", "none"}));
+  remap->add_option("--weights", out.remap.weights,
+                    "write the weights, without limiter, as ESMF does");
+  remap->add_option("--dimension", out.remap.dimension, "of the cells in FIELDS (default nCells)");
+  remap->add_option("--threads", out.threads, "threads; the values do not depend on it")
+      ->check(CLI::Range(0, 4096));
+  remap->callback([&out] { out.command = Command::remap; });
+}
+
 Pairs split(const Words& words, const char* option, const char* example) {
   Pairs out;
   for (const std::string& word : words) {
@@ -115,6 +139,7 @@ ParseResult parse_arguments(int argc, const char* const* argv, Arguments& out) {
   add_check(app, out, require);
   add_convert(app, out);
   add_partition(app, out);
+  add_remap(app, out);
   add_reader(app, out, Command::info, "info", "counts, digest, certificate and origin of a grid");
   add_reader(app, out, Command::plot, "plot", "pictures of a grid");
   out.command_line = command_line(argc, argv);

@@ -26,6 +26,8 @@ int run(const Arguments& arguments) {
       return run_convert(arguments, cancel);
     case Command::partition:
       return run_partition(arguments, cancel);
+    case Command::remap:
+      return run_remap(arguments, cancel);
     case Command::plot:
       return run_plot(arguments, cancel);
   }

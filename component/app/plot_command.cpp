@@ -18,10 +18,11 @@ int run_plot(const Arguments& arguments, const std::atomic<bool>& cancel) {
   Context context{exec, monitor};
   const LoadedGrid loaded = load_grid(context, grid_files(arguments.file).front());
   const Raster elevation_m = embedded_bathymetry();
+  const std::string folder = arguments.directory.empty() ? "." : arguments.directory;
   std::error_code error;
-  fs::create_directories(arguments.directory, error);
-  DELOS_CHECK(!error, ErrorKind::output, "the folder ", arguments.directory,
-              " can't be made: ", error.message(), ".");
+  fs::create_directories(folder, error);
+  DELOS_CHECK(!error, ErrorKind::output, "the folder ", folder, " can't be made: ", error.message(),
+              ".");
   constexpr LonLat kView{-30.0 * kRadPerDeg, 25.0 * kRadPerDeg};
   const PictureSubject subject{loaded.report.title, loaded.grid, loaded.report.quality,
                                &elevation_m, kView};
@@ -29,7 +30,7 @@ int run_plot(const Arguments& arguments, const std::atomic<bool>& cancel) {
   for (const char* const picture : {"globe", "map", "histograms"}) {
     if (!loaded.file.mesh && std::string(picture) == "histograms") continue;
     monitor.check_cancelled();
-    const fs::path path = fs::path(arguments.directory) / text(stem, ".", picture, ".png");
+    const fs::path path = fs::path(folder) / text(stem, ".", picture, ".png");
     draw_picture(subject, picture, path.string());
     std::printf("wrote %s\n", path.c_str());
   }

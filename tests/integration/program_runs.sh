@@ -40,6 +40,9 @@ must 'an override changes the grid' sh -c "
   '$delos' mesh c.yaml -o b --quiet --set 'sizing.sources.0.spacing=700 km' &&
   ! cmp -s out/small.graph.info b/small.graph.info"
 
+must 'without -o the files go where the configuration says' sh -c "
+  '$delos' mesh c.yaml --quiet --set output.directory=said && test -s said/small.mpas.nc"
+
 must 'check finds the grids sound' sh -c "'$delos' check out >check.txt"
 must 'check names every grid' test "$(grep -c ': sound' check.txt)" = 3
 must 'info shows digest and configuration' sh -c "'$delos' info out/small.mpas.nc >info.txt &&
