@@ -106,10 +106,13 @@ Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<doubl
                    const OceanOptions& options) {
   Ocean out;
   OceanReport& report = out.report;
-  const std::vector<Chain> passages = chains_of(grid, options.passages);
+  std::vector<Chain> passages = chains_of(grid, options.passages);
   const std::vector<Chain> blockages = chains_of(grid, options.blockages);
   Mask sea = wet_cells(exec, wet_fraction, options.least_wet);
+  Mask is_shut(sea.size(), 0);
+  set_cells(blockages, true, is_shut);
   report.blockages = set_cells(blockages, false, sea);
+  for (Chain& passage : passages) passage.cells = led_around(grid, passage.cells, is_shut, sea);
   report.passages = set_cells(passages, true, sea);
   Mask is_passage(sea.size(), 0);
   set_cells(passages, true, is_passage);

@@ -22,7 +22,9 @@ enum class BodyRule {
 struct OceanOptions {
   double least_wet = 0.5;  ///< of a sea cell's area
   double sea_level_m = 0.0;
-  std::vector<LonLatLine> passages;   ///< kept open, whatever the mask and the blockages say
+  /// Kept open, whatever the mask says. Around the cells of a blockage where few cells of sea lead
+  /// around, else through.
+  std::vector<LonLatLine> passages;
   std::vector<LonLatLine> blockages;  ///< kept shut, whatever the mask says
   PruneOptions prune;                 ///< the cells of passages stay
   BodyRule bodies = BodyRule::largest;

@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <utility>
 
 namespace delos::domain {
 namespace {
@@ -51,6 +54,34 @@ double width_at(const Grid& grid, Index cell) {
   return width;
 }
 
+// The way from one cell to another through sea that is not shut, without its ends, of at most
+// `most` cells; empty when there is none. Breadth first, neighbours in the order of their lists.
+std::vector<Index> short_way(const Grid& grid, std::pair<Index, Index> ends, std::size_t most,
+                             const std::function<bool(Index)>& is_open) {
+  std::map<Index, Index> came_from{{ends.first, kNone}};
+  std::vector<Index> front{ends.first}, next;
+  for (std::size_t step = 0; step <= most && !front.empty(); ++step) {
+    for (const Index cell : front) {
+      for (const Index neighbour : grid.cells_on_cell.row(cell)) {
+        if (neighbour == kNone || came_from.count(neighbour) > 0) continue;
+        if (neighbour != ends.second && !is_open(neighbour)) continue;
+        came_from[neighbour] = cell;
+        next.push_back(neighbour);
+      }
+    }
+    if (came_from.count(ends.second) > 0) break;
+    front.swap(next);
+    next.clear();
+  }
+  std::vector<Index> way;
+  if (came_from.count(ends.second) == 0) return way;
+  for (Index cell = came_from[ends.second]; cell != ends.first; cell = came_from[cell]) {
+    way.push_back(cell);
+  }
+  std::reverse(way.begin(), way.end());
+  return way;
+}
+
 }  // namespace
 
 Index cell_at(const Grid& grid, const Vec3& point) {
@@ -88,6 +119,32 @@ std::vector<Index> cells_along(const Grid& grid, const LonLatLine& line) {
     if (std::find(once.begin(), once.end(), cell) == once.end()) once.push_back(cell);
   }
   return once;
+}
+
+std::vector<Index> led_around(const Grid& grid, const std::vector<Index>& chain, const Mask& shut,
+                              const Mask& sea) {
+  const auto is_shut = [&](Index cell) { return shut[at(cell)] != 0; };
+  const auto is_open = [&](Index cell) { return !is_shut(cell) && sea[at(cell)] != 0; };
+  const auto first = std::find_if_not(chain.begin(), chain.end(), is_shut);
+  if (first == chain.end()) return chain;
+  std::vector<Index> out;
+  for (auto cell = first; cell != chain.end();) {
+    if (!is_shut(*cell)) {
+      out.push_back(*cell++);
+      continue;
+    }
+    const auto behind = std::find_if_not(cell, chain.end(), is_shut);
+    if (behind == chain.end()) break;
+    const auto n_shut = static_cast<std::size_t>(behind - cell);
+    const std::vector<Index> way = short_way(grid, {out.back(), *behind}, 2 * n_shut + 4, is_open);
+    if (way.empty()) {
+      out.insert(out.end(), cell, behind);
+    } else {
+      out.insert(out.end(), way.begin(), way.end());
+    }
+    cell = behind;
+  }
+  return out;
 }
 
 }  // namespace delos::domain

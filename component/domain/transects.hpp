@@ -3,6 +3,7 @@
 // Lines on the map as chains of cells.
 #include <vector>
 
+#include "domain/mask.hpp"
 #include "dual/grid.hpp"
 #include "geometry/lines.hpp"
 
@@ -17,5 +18,11 @@ Index cell_at(const Grid& grid, const Vec3& point);
 /// together by edges: water in all of them joins the line's ends, and land in all of them parts its
 /// sides. The line is followed in steps of a quarter of the cells' width. On a closed grid.
 std::vector<Index> cells_along(const Grid& grid, const LonLatLine& line);
+
+/// The chain led around the cells of `shut`, where a few cells of `sea` go around them: at most
+/// four more than twice those that are in the way. Elsewhere it goes through. Where it begins or
+/// ends in shut cells it becomes shorter.
+std::vector<Index> led_around(const Grid& grid, const std::vector<Index>& chain, const Mask& shut,
+                              const Mask& sea);
 
 }  // namespace delos::domain

@@ -21,10 +21,10 @@ Ellipsoid sphere_through(const Array<Vec3>& points) {
 }
 
 /// The two ends of each side of each triangle, the lower one first, in order.
-std::vector<std::array<Index, 2>> sorted_sides(const TriangleSet& set) {
+std::vector<std::array<Index, 2>> sorted_sides(std::span<const std::array<Index, 3>> corners) {
   std::vector<std::array<Index, 2>> sides;
-  sides.reserve(3 * set.corners.size());
-  for (const auto& corner : set.corners) {
+  sides.reserve(3 * corners.size());
+  for (const auto& corner : corners) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index a = corner[k], b = corner[(k + 1) % 3];
       sides.push_back({std::min(a, b), std::max(a, b)});
@@ -109,7 +109,7 @@ void drop_lone_points(TriangleSet& set) {
 
 std::vector<char> border_points(const TriangleSet& set) {
   std::vector<char> out(set.position.size(), 0);
-  const auto sides = sorted_sides(set);
+  const auto sides = sorted_sides(set.corners);
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t next = i + 1;
     while (next < sides.size() && sides[next] == sides[i]) ++next;
@@ -121,8 +121,8 @@ std::vector<char> border_points(const TriangleSet& set) {
   return out;
 }
 
-bool is_closed(const TriangleSet& set) {
-  const auto sides = sorted_sides(set);
+bool is_closed(std::span<const std::array<Index, 3>> corners) {
+  const auto sides = sorted_sides(corners);
   for (std::size_t i = 0; i < sides.size(); i += 2) {
     if (i + 1 == sides.size() || sides[i] != sides[i + 1]) return false;
     if (i + 2 < sides.size() && sides[i] == sides[i + 2]) return false;

@@ -3,6 +3,7 @@
 // What the files that hold triangles in space have in common (VTU, Gmsh, JIGSAW, FESOM2).
 #include <array>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/array.hpp"
@@ -40,6 +41,7 @@ void drop_lone_points(TriangleSet& set);
 std::vector<char> border_points(const TriangleSet& set);
 
 /// Whether every edge has one triangle on each side.
-bool is_closed(const TriangleSet& set);
+bool is_closed(std::span<const std::array<Index, 3>> corners);
+inline bool is_closed(const TriangleSet& set) { return is_closed(std::span(set.corners)); }
 
 }  // namespace delos

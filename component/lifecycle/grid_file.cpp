@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <tuple>
 
 #include "core/error.hpp"
@@ -152,34 +153,6 @@ Array<Vertex> surface_points(const GridFile& file, const std::vector<LonLat>& lo
   return out;
 }
 
-/// Triangles become the mesh, other polygons the Voronoi cells of one; `edges` when the file has
-/// the spacing there.
-void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = nullptr) {
-  if (faces.ellipsoid) out.surface = *faces.ellipsoid;
-  out.latitude = faces.latitude;
-  const auto n_faces = static_cast<std::size_t>(faces.nodes_on_face.offsets.n_rows());
-  bool all_triangles = true;
-  for (std::size_t i = 0; i < n_faces && all_triangles; ++i) {
-    all_triangles = faces.nodes_on_face.row(static_cast<std::int64_t>(i)).size() == 3;
-  }
-  if (all_triangles) {
-    out.mesh = mesh_from_triangles(surface_points(out, faces.node), face_corners(faces));
-    if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::vertices, edges->edge_spacing_m});
-    return;
-  }
-  DELOS_CHECK(
-      faces.face_centre.size() == n_faces, ErrorKind::input, out.path,
-      ": the faces are no triangles and have no centres (face_coordinates in UGRID), so the "
-      "points of the Voronoi diagram are not known.");
-  Array<Vertex> centres = surface_points(out, faces.face_centre);
-  const Corners corners = node_faces(out.path, faces, centres);
-  const bool is_closed =
-      std::none_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
-  if (!is_closed) return;
-  out.mesh = mesh_from_triangles(std::move(centres), corners);
-  if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::triangles, edges->edge_spacing_m});
-}
-
 void take_triangles(GridFile& out, TriangleSet set) {
   out.surface = *set.surface;
   out.latitude = set.latitude;
@@ -196,6 +169,50 @@ void take_triangles(GridFile& out, TriangleSet set) {
   out.mesh = mesh_from_triangles(std::move(vertices), set.corners);
   out.depth_m = std::move(set.depth_m);
   out.level_m = std::move(set.level_m);
+}
+
+/// The triangles of faces or their corners, where these leave a border.
+void take_open(GridFile& out, const Array<Vertex>& points, const Corners& corners) {
+  TriangleSet set;
+  set.surface = out.surface;
+  set.latitude = out.latitude;
+  for (const Vertex& point : points) set.position.push_back(point.position());
+  std::copy_if(corners.begin(), corners.end(), std::back_inserter(set.corners),
+               [](const auto& row) { return row[2] != kNone; });
+  drop_lone_points(set);
+  take_triangles(out, std::move(set));
+}
+
+/// Triangles become the mesh, other polygons the Voronoi cells of one, and with a border the
+/// triangles of either; `edges` when the file has
+/// the spacing there.
+void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = nullptr) {
+  if (faces.ellipsoid) out.surface = *faces.ellipsoid;
+  out.latitude = faces.latitude;
+  const auto n_faces = static_cast<std::size_t>(faces.nodes_on_face.offsets.n_rows());
+  bool all_triangles = true;
+  for (std::size_t i = 0; i < n_faces && all_triangles; ++i) {
+    all_triangles = faces.nodes_on_face.row(static_cast<std::int64_t>(i)).size() == 3;
+  }
+  if (all_triangles) {
+    Array<Vertex> nodes = surface_points(out, faces.node);
+    const Corners corners = face_corners(faces);
+    if (!is_closed(corners)) return take_open(out, nodes, corners);
+    out.mesh = mesh_from_triangles(std::move(nodes), corners);
+    if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::vertices, edges->edge_spacing_m});
+    return;
+  }
+  DELOS_CHECK(
+      faces.face_centre.size() == n_faces, ErrorKind::input, out.path,
+      ": the faces are no triangles and have no centres (face_coordinates in UGRID), so the "
+      "points of the Voronoi diagram are not known.");
+  Array<Vertex> centres = surface_points(out, faces.face_centre);
+  const Corners corners = node_faces(out.path, faces, centres);
+  const bool has_border =
+      std::any_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
+  if (has_border) return take_open(out, centres, corners);
+  out.mesh = mesh_from_triangles(std::move(centres), corners);
+  if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::triangles, edges->edge_spacing_m});
 }
 
 void read_vtu_into(GridFile& out) {

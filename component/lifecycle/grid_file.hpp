@@ -34,8 +34,8 @@ struct GridFile {
   SideSpacing spacing;
   /// The C-grid as the file has it (MPAS); none for the others, which hold no C-grid tables.
   std::optional<Grid> grid;
-  /// Triangles with a border, as VTU, Gmsh, JIGSAW and FESOM2 files may have; then there is neither
-  /// of the others.
+  /// Triangles with a border, or those between Voronoi cells with one, points of no triangle left
+  /// out; then there is neither of the others.
   std::optional<TriangleSet> triangles;
   std::int64_t n_turned = 0;  ///< triangles that were clockwise in a VTU, Gmsh, JIGSAW, FESOM2 file
   std::vector<double> depth_m, level_m;  ///< at the mesh's vertices; FESOM2 only, else empty

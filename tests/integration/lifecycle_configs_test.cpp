@@ -61,6 +61,7 @@ const std::map<std::string, std::vector<Override>>& reductions() {
         {"sizing.resolution", "1 deg"}}},
       {"triaxial_120km.yaml", {{"sizing.sources.0.spacing", "500 km"}}},
       {"wgs84_60km.yaml", {{"sizing.sources.0.spacing", "400 km"}}},
+      {"world_ocean_60km.yaml", {{"sizing.sources.0.spacing", "400 km"}}},
       {"world_ocean.yaml",
        {{"sizing.clamp", "{min: 200 km, max: 700 km}"},
         {"sizing.sources.1.spacing", "200 km"},

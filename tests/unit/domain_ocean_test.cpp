@@ -161,6 +161,24 @@ TEST_CASE("a passage joins two seas, and a blockage parts them") {
   CHECK(locked.report.blockages[1].holds);
 }
 
+TEST_CASE("a passage leads around a blockage that it can go around") {
+  const Grid grid = made_grid();
+  const auto wet = wet_where(grid, is_belt);
+  domain::OceanOptions options;
+  options.passages = {{"strait", {-30.0, 30.0}, {0.0, 0.0}}};
+  options.blockages = {{"island", {0.0, 0.0}, {-1.0, 1.0}}};
+  const domain::Ocean ocean = ocean_of(grid, wet, options);
+  CHECK(ocean.report.passages[0].holds);
+  CHECK(ocean.report.blockages[0].holds);
+  CHECK(ocean.report.n_bodies == 1);
+  CHECK_FALSE(holds_cell_at(ocean.culled.grid, 0.0, 0.0));
+  // Where it ends in one it is shorter.
+  options.blockages = {{"island", {30.0, 30.0}, {-1.0, 1.0}}};
+  const domain::Ocean shorter = ocean_of(grid, wet, options);
+  CHECK(shorter.report.passages[0].holds);
+  CHECK(shorter.report.blockages[0].holds);
+}
+
 TEST_CASE("a line's cells hang together across the date line, near a pole and in long strides") {
   const Grid grid = made_grid();
   for (const LonLatLine& line :

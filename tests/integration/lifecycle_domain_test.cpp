@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: BSD-3-Clause
+// Oceans from configurations: with the bathymetry that delos carries, and with real data where the
+// machine has them.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+
+#include "dual/validate.hpp"
+#include "io/mpas.hpp"
+#include "lifecycle/component.hpp"
+#include "lifecycle/config_file.hpp"
+#include "lifecycle/grid_file.hpp"
+#include "lifecycle/restart.hpp"
+#include "metrics/open_mesh.hpp"
+#include "support/expect_error.hpp"
+#include "support/products.hpp"
+#include "support/temporary_folder.hpp"
+
+using namespace delos;
+using delos::testing::checked;
+using delos::testing::expect_error;
+using delos::testing::made;
+using delos::testing::TemporaryFolder;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+const std::string kEtopo5 = "/usr/share/ferret-vis/data/etopo5.cdf";
+
+std::string uniform(const std::string& spacing, const std::string& domain) {
+  return "sizing: {sources: [{type: constant, spacing: " + spacing + "}]}\n" + domain;
+}
+
+// Nothing is searched for, so that the embedded bathymetry serves on every machine.
+const std::string kEmbedded = "data_path: []\n";
+
+void expect_sound(const Grid& grid, double tolerance = 1e-9) {
+  parallel::Executor exec(2);
+  Monitor monitor;
+  Context context{exec, monitor};
+  for (const BrokenRule& rule : check_grid(context, grid, tolerance)) FAIL_CHECK(to_string(rule));
+}
+
+template <class T>
+T value_of(const Report& report, const std::string& key) {
+  for (const ReportSection& section : report.sections) {
+    if (section.name != "domain") continue;
+    for (const auto& [name, value] : section.values) {
+      if (name == key) return std::get<T>(value);
+    }
+  }
+  FAIL("the report has no domain." << key);
+  return {};
+}
+
+GridFile read_back(const std::string& path) {
+  parallel::Executor exec(1);
+  Monitor monitor;
+  Context context{exec, monitor};
+  return read_grid_file(context, path);
+}
+
+std::string test_data(const std::string& name) {
+  const char* folder = std::getenv("DELOS_TEST_DATA");
+  const std::string path = std::string(folder == nullptr ? "" : folder) + "/" + name;
+  if (fs::exists(path)) return path;
+  MESSAGE("skipped: no " << name << " (set DELOS_TEST_DATA)");
+  return "";
+}
+
+bool has_etopo5() {
+  if (fs::exists(kEtopo5)) return true;
+  MESSAGE("skipped: no " << kEtopo5 << " (install ferret-datasets)");
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("a culled product has the same bits for any number of threads, and is sound") {
+  const Product product = checked(uniform("500 km", kEmbedded + "domain: {remove: [bays]}\n"));
+  REQUIRE(product.domain);
+  const Grid& grid = *product.grid;
+  CHECK(grid.n_cells() < 0.8 * static_cast<double>(product.mesh.n_vertices()));
+  CHECK(grid.n_cells() > 0.6 * static_cast<double>(product.mesh.n_vertices()));
+  CHECK(value_of<std::int64_t>(product.report, "n_cells") == grid.n_cells());
+  expect_sound(grid);
+}
+
+TEST_CASE("land polygons make an ocean, on baselines and ellipsoids too") {
+  const TemporaryFolder folder;
+  folder.write(
+      "land.geojson",
+      R"({"type": "Polygon", "coordinates": [[[-60,-90],[60,-90],[60,90],[-60,90],[-60,-90]]]})");
+  for (const char* const head : {"generator: icosahedral\nsubdivisions: 12\n",
+                                 "surface: {shape: wgs84}\nsizing: {sources: [{type: constant, "
+                                 "spacing: 600 km}]}\n"}) {
+    const Product product = made(std::string(head) + "domain: {land: {file: land.geojson}}\n", 2,
+                                 fs::path(folder.file("x")).parent_path().string());
+    const double share = static_cast<double>(product.grid->n_cells()) /
+                         static_cast<double>(product.mesh.n_vertices());
+    CHECK(share == doctest::Approx(2.0 / 3.0).epsilon(0.05));
+    expect_sound(*product.grid);
+  }
+}
+
+TEST_CASE("every kind of file holds the ocean alone and reads back") {
+  const TemporaryFolder folder;
+  const Product product =
+      made(uniform("500 km", kEmbedded +
+                                 "domain: {}\noutput: {name: o, formats: [mpas, ugrid_triangles, "
+                                 "ugrid_cells, scrip, esmf, vtu, gmsh, jigsaw, fesom]}\n"),
+           2);
+  parallel::Executor exec(2);
+  Monitor monitor;
+  Context context{exec, monitor};
+  write_outputs(context, output_content(product, "test"), folder.file("out"));
+  const Grid& grid = *product.grid;
+  const auto n_triangles = std::count_if(
+      grid.cells_on_vertex.begin(), grid.cells_on_vertex.end(),
+      [](const auto& cells) { return *std::min_element(cells.begin(), cells.end()) != kNone; });
+  int n_grids = 0;
+  for (const std::string& path : grid_files(folder.file("out"))) {
+    CAPTURE(path);
+    const GridFile file = read_back(path);
+    ++n_grids;
+    CHECK_FALSE(file.mesh);
+    if (file.grid) {
+      expect_sound(*file.grid);
+      CHECK(file.grid->cells_on_edge == grid.cells_on_edge);
+      CHECK(file.grid->cells_on_vertex == grid.cells_on_vertex);
+      CHECK(file.grid->edges_on_edge.values == grid.edges_on_edge.values);
+      continue;
+    }
+    REQUIRE(file.triangles);
+    CHECK(static_cast<std::int64_t>(file.triangles->corners.size()) == n_triangles);
+    CHECK(measure_open_mesh(file.surface, file.triangles->position, file.triangles->corners)
+              .defects.empty());
+  }
+  CHECK(n_grids == 8);  // FESOM2 is a folder of its own
+  CHECK(read_back(folder.file("out/o.fesom/nod2d.out")).triangles);
+}
+
+TEST_CASE("a culled grid comes back from a restart file with the same bits") {
+  const TemporaryFolder folder;
+  const Settings settings =
+      read_settings(parse_config(uniform("700 km", kEmbedded + "domain: {}\n"), "t.yaml"), ".");
+  parallel::Executor exec(2);
+  Monitor monitor;
+  Context context{exec, monitor};
+  const auto product = std::make_shared<const Product>(generate(context, settings, {}));
+  const Clock clock({.start = Time(Calendar::noleap, ExactSeconds(0)),
+                     .stop = Time(Calendar::noleap, ExactSeconds(100)),
+                     .step = TimeInterval(ExactSeconds(10))});
+  write_restart(folder.file("r.nc"), {product, 1, clock, std::nullopt, std::nullopt}, nullptr);
+  const Restart back = read_restart(context, settings, folder.file("r.nc"));
+  CHECK(digest(*back.product->grid) == digest(*product->grid));
+  CHECK(report_notes(back.product->report) == report_notes(product->report));
+  CHECK(back.product->domain->vertices == product->domain->vertices);
+}
+
+TEST_CASE("what a domain can't be is said with its key") {
+  const auto refused = [](const std::string& domain, std::initializer_list<std::string> parts) {
+    expect_error(ErrorKind::config, parts,
+                 [&] { made(uniform("900 km", kEmbedded + "domain: " + domain + "\n"), 1); });
+  };
+  refused("{wet_fraction: 0}", {"domain.wet_fraction", "between"});
+  refused("{wet_fration: 0.5}", {"wet_fration", "Did you mean 'wet_fraction'"});
+  refused("{bodies: largst}", {"domain.bodies", "Did you mean 'largest'"});
+  refused("{bodies: named}", {"domain.at", "lon: 35 deg"});
+  refused("{at: [{lon: 0 deg, lat: 0 deg}]}", {"domain.at", "bodies: named"});
+  refused("{order: metis}", {"domain.parts", "64"});
+  refused("{parts: 8}", {"domain.parts", "order: metis"});
+  refused("{land: {file: x.geojson}, sea_level: 3 m}", {"domain.sea_level", "land"});
+  refused("{remove: [bay]}", {"domain.remove", "bays"});
+  refused(
+      "{}\nremesh: {interval: P1M, sources: [{type: indicator, quiet: [0, 60 km], energetic: "
+      "[1, 10 km]}]}",
+      {"domain", "remesh"});
+  expect_error(ErrorKind::input, {"domain.passages.file", "nowhere.geojson"}, [&] {
+    made(uniform("900 km", kEmbedded + "domain: {passages: {file: nowhere.geojson}}\n"), 1);
+  });
+}
+
+TEST_CASE("the world ocean at 60 km: passages open, blockages shut, its area within 1 %") {
+  const std::string transects = test_data("mpas_transects_passages.geojson");
+  if (transects.empty() || !has_etopo5()) return;
+  const Product product =
+      made(uniform("60 km", "domain:\n  remove: [bays, channels]\n  passages: {file: " + transects +
+                                ", select: Critical_Passage}\n  blockages: {file: " + transects +
+                                ", select: Critical_Land_Blockage}\n"),
+           2);
+  const Report& report = product.report;
+  CHECK(value_of<std::string>(report, "passages_not_open").empty());
+  CHECK(value_of<std::string>(report, "blockages_not_shut").empty());
+  CHECK(value_of<std::int64_t>(report, "n_passages") == 19);
+  CHECK(value_of<std::int64_t>(report, "n_passages_open") == 19);
+  CHECK(value_of<std::int64_t>(report, "n_blockages") == 21);
+  CHECK(value_of<std::int64_t>(report, "n_blockages_shut") == 21);
+  CHECK(value_of<double>(report, "area_m2") == doctest::Approx(358.9e12).epsilon(0.01));
+  // The whole grid has 1 % more cells than the integral of its spacing, of which 115 k is a part.
+  const double excess = static_cast<double>(product.mesh.n_vertices()) / report.expected_vertices;
+  const auto n_cells = static_cast<double>(product.grid->n_cells());
+  CAPTURE(n_cells);
+  CHECK(n_cells / excess == doctest::Approx(115.0e3).epsilon(0.01));
+  CHECK(n_cells == doctest::Approx(115.0e3).epsilon(0.03));
+  expect_sound(*product.grid);
+}
+
+TEST_CASE("published recipes have their number of ocean cells within 3 %") {
+  if (!has_etopo5()) return;
+  for (const auto& [spacing, n] : {std::pair{"240 km", 7.2e3}, std::pair{"120 km", 28.8e3}}) {
+    CAPTURE(spacing);
+    const Product product = made(uniform(spacing, "domain: {}\n"), 2);
+    CHECK(static_cast<double>(product.grid->n_cells()) == doctest::Approx(n).epsilon(0.03));
+  }
+  const std::string eke = test_data("eke_mean_1993-2022_0p25.nc");
+  if (eke.empty()) return;
+  const Product product =
+      made("sizing:\n  sources:\n    - {type: eke, file: " + eke +
+               ", variable: eke, quiet: [0.05 m/s, 240 km], energetic: [0.45 m/s, 40 km]}\n"
+               "  gradient_limit: 0.1\ndomain: {}\n",
+           2);
+  CHECK(static_cast<double>(product.grid->n_cells()) == doctest::Approx(29.0e3).epsilon(0.03));
+}
