@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/error.hpp"
 
@@ -103,6 +104,10 @@ Raster raster_of_cells(parallel::Executor& exec, const Grid& grid, std::span<con
           boxes.area[box] > 0.0 ? boxes.sum[box] / boxes.area[box] : values[at(cell)];
     }
   });
+  return raster_of_nodes(std::move(table), name);
+}
+
+Raster raster_of_nodes(LatLonField table, const std::string& name) {
   Raster out;
   out.source = name;
   for (Index j = 0; j < table.n_rows(); ++j) {

@@ -24,6 +24,9 @@ double cell_resolution_rad(const Grid& grid);
 Raster raster_of_cells(parallel::Executor& exec, const Grid& grid, std::span<const double> values,
                        double resolution_rad, const std::string& name);
 
+/// A table with both poles as it is.
+Raster raster_of_nodes(LatLonField table, const std::string& name);
+
 /// Values [n_lat, n_lon] of strictly rising or falling axes (longitudes within one turn), put in
 /// order; periodic when the columns go round, a repeated last one is dropped. Error(input) when the
 /// number of values does not fit the axes.

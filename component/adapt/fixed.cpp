@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "adapt/fixed.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 #include "core/elementary.hpp"
 #include "core/types.hpp"
+#include "sizing/analytic.hpp"
 
 namespace delos {
 namespace {
@@ -38,22 +38,29 @@ bool holds(const FixedBox& box, const LonLat& place) {
   return turned(place.lon_rad * kDegPerRad - box.west_deg) <= width_deg;
 }
 
+bool holds(const FixedRegion& region, const LonLat& place) {
+  if (const auto* const disc = std::get_if<FixedDisc>(&region)) return holds(*disc, place);
+  return holds(std::get<FixedBox>(region), place);
+}
+
 }  // namespace
 
 std::vector<char> in_fixed_regions(parallel::Executor& exec, std::span<const FixedRegion> regions,
                                    std::span<const LonLat> places) {
   if (regions.empty()) return {};
   std::vector<char> out(places.size(), 0);
-  const auto is_in = [&](const LonLat& place) {
-    return std::any_of(regions.begin(), regions.end(), [&](const FixedRegion& region) {
-      return std::visit([&](const auto& shape) { return holds(shape, place); }, region);
-    });
-  };
-  parallel::for_index(exec, static_cast<std::int64_t>(places.size()), kPlaceGrain,
-                      [&](std::int64_t i) {
-                        const auto k = static_cast<std::size_t>(i);
-                        out[k] = is_in(places[k]) ? 1 : 0;
-                      });
+  for (const FixedRegion& region : regions) {
+    if (const auto* const shape = std::get_if<FixedPolygons>(&region)) {
+      const std::vector<char> inside = inside_polygons(exec, *shape->polygons, places);
+      for (std::size_t i = 0; i < out.size(); ++i) out[i] |= inside[i];
+      continue;
+    }
+    parallel::for_index(exec, static_cast<std::int64_t>(places.size()), kPlaceGrain,
+                        [&](std::int64_t i) {
+                          const auto k = static_cast<std::size_t>(i);
+                          if (holds(region, places[k])) out[k] = 1;
+                        });
+  }
   return out;
 }
 

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Regions that no remesh touches.
+#include <memory>
 #include <span>
 #include <variant>
 #include <vector>
 
 #include "core/parallel.hpp"
 #include "geometry/ellipsoid.hpp"
+#include "sizing/raster.hpp"
 
 namespace delos {
 
@@ -21,7 +23,12 @@ struct FixedBox {
   double west_deg = 0.0, east_deg = 0.0, south_deg = 0.0, north_deg = 0.0;
 };
 
-using FixedRegion = std::variant<FixedDisc, FixedBox>;
+/// What lies inside, by inside_polygons().
+struct FixedPolygons {
+  std::shared_ptr<const PolygonSet> polygons;
+};
+
+using FixedRegion = std::variant<FixedDisc, FixedBox, FixedPolygons>;
 
 /// 1 where a place lies in a region, else 0; empty without regions.
 std::vector<char> in_fixed_regions(parallel::Executor& exec, std::span<const FixedRegion> regions,

@@ -20,13 +20,22 @@ constexpr double kLongestSide = 1.05;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
+// The triangles of all holes, and where a triangle's is: its hole's first place and its place among
+// the hole's triangles together, or kNone.
+struct Flooded {
+  std::vector<std::vector<Index>> holes;  // ascending
+  std::vector<Index> first_place;         // by hole, and one more
+  const std::vector<Index>& place_of;     // by old triangle
+};
+
 // One hole while vertices are taken out of it.
 class Emptying {
  public:
-  Emptying(const OldMesh& old, const std::vector<Index>& triangles,
-           const std::vector<Index>& hole_of)
+  // `local_id` has kNone for every old vertex, and has so again afterwards.
+  Emptying(const OldMesh& old, const Flooded& flooded, std::size_t hole,
+           std::vector<Index>& local_id)
       : old_(old) {
-    load(triangles, hole_of);
+    load(flooded, hole, local_id);
   }
 
   void remove(const std::vector<Change>& change);
@@ -34,7 +43,7 @@ class Emptying {
   Hole take();
 
  private:
-  void load(const std::vector<Index>& triangles, const std::vector<Index>& hole_of);
+  void load(const Flooded& flooded, std::size_t hole, std::vector<Index>& local_id);
   Vec3 position(Index v) const { return old_.mesh.position(vertices_[at(v)]); }
   Triangle& triangle(Index t) { return triangles_[at(t)]; }
   void gather_star(Index vertex);
@@ -61,30 +70,32 @@ class Emptying {
   Star star_;
 };
 
-// Place of an id in an ascending list that holds it.
-Index place_of(const std::vector<Index>& sorted, Index id) {
-  return static_cast<Index>(std::lower_bound(sorted.begin(), sorted.end(), id) - sorted.begin());
-}
-
-void Emptying::load(const std::vector<Index>& triangles, const std::vector<Index>& hole_of) {
+void Emptying::load(const Flooded& flooded, std::size_t hole, std::vector<Index>& local_id) {
+  const std::vector<Index>& triangles = flooded.holes[hole];
   for (const Index tri : triangles) {
-    for (const Index v : old_.mesh.triangle(tri).vertex) vertices_.push_back(v);
+    for (const Index v : old_.mesh.triangle(tri).vertex) {
+      if (local_id[at(v)] != kNone) continue;
+      local_id[at(v)] = 0;
+      vertices_.push_back(v);
+    }
   }
   std::sort(vertices_.begin(), vertices_.end());
-  vertices_.erase(std::unique(vertices_.begin(), vertices_.end()), vertices_.end());
+  for (std::size_t i = 0; i < vertices_.size(); ++i) {
+    local_id[at(vertices_[i])] = static_cast<Index>(i);
+  }
   at_vertex_.assign(vertices_.size(), kNone);
   is_gone_.assign(vertices_.size(), 0);
-  const Index hole = hole_of[at(triangles.front())];
+  const Index first = flooded.first_place[hole], end = flooded.first_place[hole + 1];
   triangles_.reserve(triangles.size());
   for (const Index tri : triangles) {
     const Triangle& source = old_.mesh.triangle(tri);
     Triangle t{};
     for (std::size_t k = 0; k < 3; ++k) {
-      t.vertex[k] = place_of(vertices_, source.vertex[k]);
+      t.vertex[k] = local_id[at(source.vertex[k])];
       at_vertex_[at(t.vertex[k])] = static_cast<Index>(triangles_.size());
-      const Index other = source.neighbour[k];
-      if (hole_of[at(other)] == hole) {
-        t.neighbour[k] = place_of(triangles, other);
+      const Index other = source.neighbour[k], place = flooded.place_of[at(other)];
+      if (place >= first && place < end) {
+        t.neighbour[k] = place - first;
       } else {
         t.neighbour[k] = ~static_cast<Index>(border_.size());
         border_.push_back({other, side_towards(old_.mesh.triangle(other), tri)});
@@ -92,6 +103,7 @@ void Emptying::load(const std::vector<Index>& triangles, const std::vector<Index
     }
     triangles_.push_back(t);
   }
+  for (const Index v : vertices_) local_id[at(v)] = kNone;
 }
 
 // All vertices that are to go, in a scattered order: taken out one after the other along a line
@@ -269,35 +281,36 @@ Hole Emptying::take() {
   return out;
 }
 
-// The triangles around removed vertices, a connected set a hole, ascending; hole_of is filled.
-std::vector<std::vector<Index>> flood_holes(const OldMesh& old, const Region& region,
-                                            std::vector<Index>& hole_of) {
+// The triangles around removed vertices, a connected set a hole; place_of is filled.
+Flooded flood_holes(const OldMesh& old, const Region& region, std::vector<Index>& place_of) {
   const Mesh& mesh = old.mesh;
   const auto is_inside = [&](Index tri) {
     const auto& v = mesh.triangle(tri).vertex;
     return std::any_of(v.begin(), v.end(),
                        [&](Index i) { return region.change[at(i)] == Change::remove; });
   };
-  hole_of.assign(mesh.triangles.size(), kNone);
-  std::vector<std::vector<Index>> holes;
+  place_of.assign(mesh.triangles.size(), kNone);
+  Flooded out{{}, {0}, place_of};
   for (Index v = 0; v < mesh.n_vertices(); ++v) {
     if (region.change[at(v)] != Change::remove) continue;
     const Index seed = old.at_vertex[at(v)];
-    if (hole_of[at(seed)] != kNone) continue;
-    const auto hole = static_cast<Index>(holes.size());
+    if (place_of[at(seed)] != kNone) continue;
     std::vector<Index> inside{seed};
-    hole_of[at(seed)] = hole;
+    place_of[at(seed)] = 0;
     for (std::size_t i = 0; i < inside.size(); ++i) {
       for (const Index other : mesh.triangle(inside[i]).neighbour) {
-        if (hole_of[at(other)] != kNone || !is_inside(other)) continue;
-        hole_of[at(other)] = hole;
+        if (place_of[at(other)] != kNone || !is_inside(other)) continue;
+        place_of[at(other)] = 0;
         inside.push_back(other);
       }
     }
     std::sort(inside.begin(), inside.end());
-    holes.push_back(std::move(inside));
+    Index place = out.first_place.back();
+    for (const Index tri : inside) place_of[at(tri)] = place++;
+    out.first_place.push_back(place);
+    out.holes.push_back(std::move(inside));
   }
-  return holes;
+  return out;
 }
 
 // The hole in the form in which the tile kernel takes a tile: number i of the border is
@@ -344,20 +357,23 @@ std::vector<std::size_t> largest_first(std::size_t n, const Size& size) {
 Holes make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
                  const Region& region) {
   Holes out;
-  std::vector<std::vector<Index>> inside = flood_holes(old, region, out.hole_of);
-  out.holes.resize(inside.size());
+  Flooded flooded = flood_holes(old, region, out.place_of);
+  out.holes.resize(flooded.holes.size());
   const bool by_balls = surface.radii().minCoeff() < kFlattestForPlanes;
   const std::vector<std::size_t> order =
-      largest_first(inside.size(), [&](std::size_t i) { return inside[i].size(); });
-  parallel::for_index(context.exec, static_cast<std::int64_t>(inside.size()), kHoleGrain,
+      largest_first(flooded.holes.size(), [&](std::size_t i) { return flooded.holes[i].size(); });
+  std::vector<std::vector<Index>> local_ids(at(context.exec.n_threads()));
+  parallel::for_index(context.exec, static_cast<std::int64_t>(order.size()), kHoleGrain,
                       [&](std::int64_t i) {
                         context.monitor.check_cancelled();
                         const std::size_t hole = order[at(i)];
-                        Emptying emptying(old, inside[hole], out.hole_of);
+                        std::vector<Index>& ids = local_ids[at(context.exec.thread_slot())];
+                        ids.resize(old.mesh.vertices.size(), kNone);
+                        Emptying emptying(old, flooded, hole, ids);
                         emptying.remove(region.change);
                         emptying.restore_delaunay(by_balls);
                         out.holes[hole] = emptying.take();
-                        out.holes[hole].old_triangles = std::move(inside[hole]);
+                        out.holes[hole].old_triangles = std::move(flooded.holes[hole]);
                       });
   return out;
 }

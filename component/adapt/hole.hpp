@@ -27,7 +27,7 @@ struct Hole {
 
 struct Holes {
   std::vector<Hole> holes;
-  std::vector<Index> hole_of;  ///< by old triangle: its hole, or kNone
+  std::vector<Index> place_of;  ///< by old triangle: its place among those of all holes, or kNone
 };
 
 /// Empties the region, hole by hole in the order of their least removed vertices.

@@ -104,7 +104,7 @@ void Joiner::number() {
   vertex_ =
       count_up(exec_, old_.vertices.size(), [&](std::int64_t v) { return is_gone[at(v)] != 0; });
   triangle_ = count_up(exec_, old_.triangles.size(),
-                       [&](std::int64_t tri) { return holes_.hole_of[at(tri)] != kNone; });
+                       [&](std::int64_t tri) { return holes_.place_of[at(tri)] != kNone; });
   out_.first_inserted = vertex_.n_left;
   out_.first_filling = triangle_.n_left;
   Place next{vertex_.n_left, triangle_.n_left};

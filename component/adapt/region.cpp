@@ -16,14 +16,7 @@ std::size_t at(Index i) { return static_cast<std::size_t>(i); }
 
 template <class Visit>
 void for_each_neighbour(const OldMesh& old, Index vertex, const Visit& visit) {
-  const Index first = old.at_vertex[at(vertex)];
-  Index tri = first;
-  do {
-    const Triangle& t = old.mesh.triangle(tri);
-    const auto k = at(next_corner(corner_at(t, vertex)));
-    visit(t.vertex[k]);
-    tri = t.neighbour[k];
-  } while (tri != first);
+  delos::for_each_neighbour(old.mesh, old.at_vertex[at(vertex)], vertex, visit);
 }
 
 // How the two spacings compare at a vertex.

@@ -7,13 +7,13 @@
 #include <utility>
 
 #include "adapt/join.hpp"
+#include "metrics/certificate.hpp"
 #include "triangulation/flip.hpp"
 
 namespace delos {
 namespace {
 
 constexpr std::int64_t kScanGrain = 16384;  // items a task: some ten microseconds
-constexpr double kShortestSide = 0.65;      // of the spacing: what every grid is certified for
 constexpr int kReleaseRings = 2;            // around a triangle that misses the certificate
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
@@ -30,6 +30,7 @@ Remeshed rebuild(Context& context, const RemeshInput& input, const RemeshOptions
   Remeshed out{refine(context, input.surface, input.spacing, options.refine, refined),
                std::vector<Index>(input.mesh.vertices.size(), kNone)};
   report.relax = relax(context, input.surface, input.spacing, options.relax, out.mesh);
+  report.n_kept = 0;
   report.n_removed = input.mesh.n_vertices();
   report.n_inserted = out.mesh.n_vertices();
   report.changed_area = 1.0;
@@ -67,13 +68,13 @@ Verdict judge(const SpacingField& spacing, const Mesh& mesh, const Triangle& t) 
   std::array<Vec3, 3> side;
   for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.position(t.vertex[k]);
   for (std::size_t k = 0; k < 3; ++k) side[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
-  const double product = side[0].dot(side[1]) < side[1].dot(side[2])
-                             ? std::max(side[1].dot(side[2]), side[2].dot(side[0]))
-                             : std::max(side[0].dot(side[1]), side[2].dot(side[0]));
-  Verdict out{product >= 0.0, false};
+  // The angle between two sides is obtuse where, head to tail, their product is not negative.
+  const double greatest =
+      std::max({side[0].dot(side[1]), side[1].dot(side[2]), side[2].dot(side[0])});
+  Verdict out{greatest >= 0.0, false};
   for (std::size_t k = 0; k < 3; ++k) {
     const Vec3 middle = 0.5 * (p[(k + 2) % 3] + p[(k + 1) % 3]);
-    const double least = kShortestSide * spacing.at(middle.x(), middle.y(), middle.z());
+    const double least = kRelativeEdgeBound * spacing.at(middle.x(), middle.y(), middle.z());
     if (side[k].squaredNorm() < least * least) out.is_short = true;
   }
   return out;
@@ -183,14 +184,9 @@ bool LocalRemesh::release(const Missed& missed) {
   for (int ring = 0; ring < kReleaseRings; ++ring) {
     const std::size_t end = near.size();
     for (std::size_t i = 0; i < end; ++i) {
-      const Index first = at_vertex[at(near[i])];
-      Index tri = first;
-      do {
-        const Triangle& t = mesh_.triangle(tri);
-        const auto k = at(next_corner(corner_at(t, near[i])));
-        near.push_back(t.vertex[k]);
-        tri = t.neighbour[k];
-      } while (tri != first);
+      const Index vertex = near[i];
+      for_each_neighbour(mesh_, at_vertex[at(vertex)], vertex,
+                         [&](Index neighbour) { near.push_back(neighbour); });
     }
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
@@ -263,36 +259,52 @@ const char* to_string(RemeshKind kind) {
   return "unknown";
 }
 
-Remeshed remesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
-                RemeshReport& report) {
+RemeshPlan plan_remesh(Context& context, const RemeshInput& input, const RemeshOptions& options) {
   const Mesh& mesh = input.mesh;
   DELOS_CHECK(input.is_fixed.empty() || input.is_fixed.size() == mesh.vertices.size(),
               ErrorKind::internal, "the mask of fixed vertices has ", input.is_fixed.size(),
               " entries for ", mesh.n_vertices(), " vertices.");
-  report = {};
-  const std::vector<Index> at_vertex = triangle_at_vertex(context.exec, mesh);
-  const OldMesh old{mesh, at_vertex};
-  const Region region =
-      find_region(context.exec, old, input.spacing, options.region, input.is_fixed);
-  report.n_wanted = region.n_wanted;
-  report.n_held = region.n_held;
-  report.n_kept = mesh.n_vertices();
-  if (region.n_removed == 0) {
-    report.reason = "the spacing is still right, or off at too few vertices to be worth a change";
-    return unchanged(mesh);
+  RemeshPlan plan;
+  plan.at_vertex = triangle_at_vertex(context.exec, mesh);
+  plan.region = find_region(context.exec, {mesh, plan.at_vertex}, input.spacing, options.region,
+                            input.is_fixed);
+  if (plan.region.n_removed == 0) {
+    plan.reason = "the spacing is still right, or off at too few vertices to be worth a change";
+    return plan;
   }
-  const double share = static_cast<double>(region.n_removed) / mesh.n_vertices();
+  const double share = static_cast<double>(plan.region.n_removed) / mesh.n_vertices();
   const bool has_fixed = std::any_of(input.is_fixed.begin(), input.is_fixed.end(),
                                      [](char fixed) { return fixed != 0; });
-  if (share > options.full_share && !has_fixed) {
-    report.kind = RemeshKind::full;
-    report.reason = text("the spacing is off around ", share,
-                         " of the vertices: making everything anew costs less");
-    return rebuild(context, input, options, report);
+  const bool is_full = share > options.full_share && !has_fixed;
+  plan.kind = is_full ? RemeshKind::full : RemeshKind::local;
+  plan.reason = text("the spacing is off around ", share, " of the vertices",
+                     is_full ? ": making everything anew costs less" : "");
+  return plan;
+}
+
+Remeshed remesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
+                const RemeshPlan& plan, RemeshReport& report) {
+  report = {};
+  report.kind = plan.kind;
+  report.reason = plan.reason;
+  report.n_wanted = plan.region.n_wanted;
+  report.n_held = plan.region.n_held;
+  report.n_kept = input.mesh.n_vertices();
+  switch (plan.kind) {
+    case RemeshKind::nothing:
+      return unchanged(input.mesh);
+    case RemeshKind::full:
+      return rebuild(context, input, options, report);
+    case RemeshKind::local:
+      break;
   }
-  report.kind = RemeshKind::local;
-  report.reason = text("the spacing is off around ", share, " of the vertices");
-  return LocalRemesh(context, input, options, region, report).run(old);
+  return LocalRemesh(context, input, options, plan.region, report)
+      .run({input.mesh, plan.at_vertex});
+}
+
+Remeshed remesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
+                RemeshReport& report) {
+  return remesh(context, input, options, plan_remesh(context, input, options), report);
 }
 
 }  // namespace delos

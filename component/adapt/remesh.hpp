@@ -34,6 +34,14 @@ enum class RemeshKind { nothing, local, full };
 /// "nothing", "local" or "full".
 const char* to_string(RemeshKind kind);
 
+/// What a remesh is about to do.
+struct RemeshPlan {
+  std::vector<Index> at_vertex;  ///< one triangle at each vertex of the old mesh
+  Region region;
+  RemeshKind kind = RemeshKind::nothing;
+  std::string reason;  ///< for that kind, a sentence
+};
+
 struct RemeshReport {
   RemeshKind kind = RemeshKind::nothing;
   std::string reason;          ///< for that kind, a sentence
@@ -58,9 +66,16 @@ struct Remeshed {
   std::vector<Index> new_id;
 };
 
-/// The old mesh is left alone: an error or a request to stop costs nothing. The result is sound and
-/// Delaunay, the same bits for any number of threads; time goes with what changes, but for a few
-/// passes over all vertices. An `is_fixed` that is not empty excludes a full rebuild.
+/// Decides what of the mesh changes. An `is_fixed` that is not empty excludes a full rebuild.
+RemeshPlan plan_remesh(Context& context, const RemeshInput& input, const RemeshOptions& options);
+
+/// Does it. The spacing may by now be another than the one of the plan, as long as the two agree
+/// where the plan keeps the mesh. The old mesh is left alone: an error or a request to stop costs
+/// nothing. The result is sound and Delaunay, the same bits for any number of threads; time goes
+/// with what changes, but for a few passes over all vertices.
+Remeshed remesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
+                const RemeshPlan& plan, RemeshReport& report);
+/// Both.
 Remeshed remesh(Context& context, const RemeshInput& input, const RemeshOptions& options,
                 RemeshReport& report);
 

@@ -173,6 +173,10 @@ void Statistics::check(parallel::Executor& exec, const Sample& sample) const {
 
 void Statistics::add(parallel::Executor& exec, const Sample& sample) {
   check(exec, sample);
+  take(exec, sample);
+}
+
+void Statistics::take(parallel::Executor& exec, const Sample& sample) {
   elapsed_s_ += sample.duration_s;
   double left_s = sample.duration_s;
   if (options_.window == Window::fixed) {

@@ -77,7 +77,9 @@ class Statistics {
   /// Error(input) for a size, a duration or a value (NaN, infinite) that can't be used, with
   /// its place.
   void check(parallel::Executor& exec, const Sample& sample) const;
-  /// After that check: a sample that is refused changes nothing.
+  /// Takes a sample that has been checked.
+  void take(parallel::Executor& exec, const Sample& sample);
+  /// Both: a sample that is refused changes nothing.
   void add(parallel::Executor& exec, const Sample& sample);
 
   /// The moments to use: of the running window, or of the last complete one when it is fixed.

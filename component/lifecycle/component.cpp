@@ -204,8 +204,12 @@ void Component::realize() {
   parallel::Executor exec(options_.threads > 0 ? options_.threads : settings_.threads);
   Monitor monitor(options_.on_progress, options_.on_log, options_.cancel);
   Context context{exec, monitor};
-  auto product = std::make_shared<const Product>(generate(context, settings_, {}));
+  Inputs inputs = read_inputs(context, settings_);
+  Sized sized = size(context, settings_, inputs.recipe);
+  auto product =
+      std::make_shared<const Product>(generate(context, settings_, inputs, std::move(sized), {}));
   start_remeshing();
+  if (remesh_) remesh_->keep(std::move(inputs), settings_);
   put_in_place(std::move(product), last_generation_ + 1);
   stage_ = Stage::realized;
 }

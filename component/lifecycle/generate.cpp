@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "adapt/remesh.hpp"
 #include "core/error.hpp"
 #include "dual/build.hpp"
 #include "dual/digest.hpp"
@@ -51,35 +50,6 @@ ReportSection relax_section(const RelaxReport& report) {
            {"n_removed", report.n_removed},
            {"n_inserted", report.n_inserted},
            {"n_below_target", report.n_below_target}}};
-}
-
-ReportSection remesh_section(const RemeshReport& report) {
-  return {"remesh",
-          {{"kind", std::string(to_string(report.kind))},
-           {"reason", report.reason},
-           {"n_wanted", report.n_wanted},
-           {"n_held", report.n_held},
-           {"n_regions", report.n_regions},
-           {"n_kept", report.n_kept},
-           {"n_moved", report.n_moved},
-           {"n_removed", report.n_removed},
-           {"n_inserted", report.n_inserted},
-           {"changed_area", report.changed_area}}};
-}
-
-Mesh remeshed(Context& context, const Settings& settings, const SpacingField& spacing,
-              const OldMeshScope& old, std::vector<ReportSection>& sections) {
-  RemeshOptions options;
-  options.region.tolerance = old.tolerance;
-  options.refine = settings.refine;
-  options.relax = settings.relax;
-  RemeshReport report;
-  Remeshed out =
-      remesh(context, {settings.surface, spacing, old.mesh, old.is_fixed}, options, report);
-  sections.push_back(remesh_section(report));
-  context.monitor.log(LogLevel::info,
-                      text("remesh, ", to_string(report.kind), ": ", report.reason));
-  return std::move(out.mesh);
 }
 
 Mesh triangulate(Context& context, const Settings& settings, const SpacingField& spacing,
@@ -269,8 +239,9 @@ Product generate(Context& context, const Settings& settings, const Inputs& input
   report.expected_vertices = expected_vertices(context.exec, settings.surface, sized.field);
   check_cost(context, settings, report.expected_vertices, scope);
 
-  if (scope.old != nullptr) {
-    product.mesh = remeshed(context, settings, sized.field, *scope.old, report.sections);
+  if (scope.make_mesh) {
+    product.mesh = scope.make_mesh(context, sized, report.sections);
+    report.expected_vertices = expected_vertices(context.exec, settings.surface, sized.field);
   } else {
     product.mesh = triangulate(context, settings, sized.field, report.sections);
     check_count(settings, product.mesh, report.expected_vertices);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // The recipe: from settings to a finished grid with its report.
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -30,19 +31,23 @@ struct Product {
   Report report;
 };
 
-/// A mesh to start from, in place of nothing.
-struct OldMeshScope {
-  const Mesh& mesh;
-  double tolerance = 1.2;      ///< of old over new spacing: what is within stays, bit for bit
-  std::vector<char> is_fixed;  ///< [n_vertices] or empty: cells that stay whatever is wanted
+/// A wanted spacing; its table only when the settings write it.
+struct Sized {
+  SpacingField field;
+  std::optional<LatLonField> table_m;
 };
+
+/// Makes a mesh for the spacing in another way than from nothing; may change the spacing that the
+/// grid is to follow, and tells of itself in the report.
+using MakeMesh =
+    std::function<Mesh(Context& context, Sized& sized, std::vector<ReportSection>& sections)>;
 
 struct GenerateScope {
   bool with_dual = true;
   /// Where files will go: checked before the long computation. Empty: no files.
   std::string directory;
-  /// With it phases "remesh" and so on stand in the place of refine and relax.
-  const OldMeshScope* old = nullptr;
+  /// In the place of refine and relax; empty: these.
+  MakeMesh make_mesh = {};
 };
 
 /// Phases: read, spacing, refine, relax, polish, quality, dual and, with settings.domain, domain
@@ -53,12 +58,6 @@ struct GenerateScope {
 /// then the log has it as a warning. On that error no grid is written, but, when scope.directory is
 /// given and settings.output.report is on, its report (write_rejected_report).
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
-
-/// A wanted spacing; its table only when the settings write it.
-struct Sized {
-  SpacingField field;
-  std::optional<LatLonField> table_m;
-};
 
 /// Phase "spacing". Errors as build_spacing.
 Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe);

@@ -39,6 +39,7 @@ class InputReader {
   bool add_source(const SourceSettings& source);
   void add_bathymetry(const BathymetrySettings& bathymetry);
   void add_domain(const DomainSettings& domain);
+  void add_fixed(const RemeshSettings& remesh);
 
  private:
   bool has_file(const FileRequest& request) const {
@@ -185,6 +186,20 @@ void InputReader::add_bathymetry(const BathymetrySettings& bathymetry) {
   out_.elevation_m = std::move(elevation);
 }
 
+void InputReader::add_fixed(const RemeshSettings& remesh) {
+  out_.fixed = remesh.fixed;
+  for (const FixedFile& named : remesh.fixed_files) {
+    const std::string path = path_of({named.file, named.where, {}});
+    context_.monitor.advance(1);
+    with_key(named.where, [&] {
+      auto polygons = std::make_shared<const PolygonSet>(read_polygons(path, named.feature));
+      DELOS_CHECK(!polygons->rings.empty(), ErrorKind::input, path,
+                  " holds no polygon: check the file and the feature's name.");
+      out_.fixed.emplace_back(FixedPolygons{std::move(polygons)});
+    });
+  }
+}
+
 }  // namespace
 
 Inputs read_inputs(Context& context, const Settings& settings) {
@@ -206,6 +221,7 @@ Inputs read_inputs(Context& context, const Settings& settings) {
   if (sizing.needs_bathymetry || is_sea_masked) reader.add_bathymetry(sizing.bathymetry);
   if (sizing.needs_bathymetry) out.recipe.elevation_m = out.elevation_m;
   if (settings.domain) reader.add_domain(*settings.domain);
+  if (settings.remesh) reader.add_fixed(*settings.remesh);
   return out;
 }
 

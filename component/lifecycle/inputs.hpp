@@ -26,6 +26,7 @@ struct Inputs {
   std::vector<InputRecord> files;               ///< each once, in the order of reading
   std::string bathymetry;                       ///< where the elevation came from; empty: not used
   std::vector<std::string> left_out;            ///< names of optional sources without their file
+  std::vector<FixedRegion> fixed;               ///< what no remesh touches, polygons of files too
 };
 
 /// Reads what the settings ask for (phase "read"). A relative name is looked for in the

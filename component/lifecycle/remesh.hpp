@@ -17,8 +17,12 @@ namespace delos {
 struct Remesh {
   explicit Remesh(const RemeshSettings& settings) : solution(settings) {}
 
+  /// Keeps what is needed of the files from now on; they are not read again.
+  void keep(Inputs read, const Settings& settings);
+
   Solution solution;
   PolicyState policy;
+  std::optional<Inputs> inputs;  ///< none after a restart, before the first alarm
   /// What the exports tell of the last alarm: mismatch; 1 remeshed, 0 not, -1 failed.
   std::array<double, 2> told{};
 };

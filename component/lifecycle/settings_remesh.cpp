@@ -38,7 +38,31 @@ StatisticsOptions read_statistics(MapReader keys) {
   return out;
 }
 
+std::optional<UpstreamOptions> read_upstream(MapReader& keys) {
+  if (!keys.has("upstream")) return std::nullopt;
+  MapReader reach = keys.map("upstream", {"length", "time"});
+  if (reach.has("length") == reach.has("time")) {
+    keys.fail("upstream",
+              "either a length or a time is needed, e.g. {length: 500 km} or "
+              "{time: 20 d}.");
+  }
+  UpstreamOptions out;
+  if (reach.has("length")) {
+    out.length_m = reach.quantity("length", Dimension::length, Bounds::positive());
+  } else {
+    out.time_s = reach.quantity("time", Dimension::time, Bounds::positive());
+  }
+  return out;
+}
+
 void read_law(MapReader& keys, const std::string& type, double radius_m, SolutionSource& out) {
+  if (type == "wanted_spacing") {
+    out.field = SolutionField::spacing;
+    out.law =
+        WantedSpacing{keys.optional_quantity("missing", Dimension::length, Bounds::positive())};
+    return;
+  }
+  out.upstream = read_upstream(keys);
   if (type == "eke") {
     constexpr SolutionField kFields[] = {SolutionField::velocity, SolutionField::normal_velocity,
                                          SolutionField::energy};
@@ -58,11 +82,12 @@ template <class Visit>
 void visit_types(Visit&& visit) {
 #define DELOS_LAW_KEYS                                                                         \
   "type", "name", "form", "quiet", "energetic", "threshold", "spacing_below", "spacing_above", \
-      "clamp", "smooth"
+      "clamp", "smooth", "upstream"
   visit("eke", MapReader::Keys{DELOS_LAW_KEYS, "from", "fill_speed"});
   visit("ssh_variability", MapReader::Keys{DELOS_LAW_KEYS, "fill_height"});
   visit("vorticity_gradient", MapReader::Keys{DELOS_LAW_KEYS, "fill"});
   visit("indicator", MapReader::Keys{DELOS_LAW_KEYS, "fill"});
+  visit("wanted_spacing", MapReader::Keys{"type", "name", "missing"});
 #undef DELOS_LAW_KEYS
 }
 
@@ -110,17 +135,31 @@ FixedRegion read_box(MapReader& keys) {
   return box;
 }
 
-FixedRegion read_region(const ConfigNode& node, const std::string& path, ConfigNode& effective,
-                        double radius_m) {
+FixedFile read_polygon(MapReader& keys) {
+  FixedFile out;
+  out.file = keys.string("file");
+  out.where = keys.locate("file");
+  out.feature = keys.string("feature", "");
+  return out;
+}
+
+void read_region(const ConfigNode& node, const std::string& path, ConfigNode& effective,
+                 double radius_m, RemeshSettings& out) {
   const ConfigNode* const type = node.find("type");
-  if (type != nullptr && type->scalar == "box") {
+  const std::string given = type != nullptr ? type->scalar : "";
+  if (given == "box") {
     MapReader keys(node, path, effective, {"type", "west", "east", "south", "north"});
     keys.string("type");
-    return read_box(keys);
+    out.fixed.push_back(read_box(keys));
+  } else if (given == "polygon") {
+    MapReader keys(node, path, effective, {"type", "file", "feature"});
+    keys.string("type");
+    out.fixed_files.push_back(read_polygon(keys));
+  } else {
+    MapReader keys(node, path, effective, {"type", "centre", "radius"});
+    keys.choice("type", {"disc", "box", "polygon"});
+    out.fixed.push_back(read_disc(keys, radius_m));
   }
-  MapReader keys(node, path, effective, {"type", "centre", "radius"});
-  keys.choice("type", {"disc", "box"});
-  return read_disc(keys, radius_m);
 }
 
 void read_policy(MapReader& keys, PolicyOptions& out) {
@@ -154,7 +193,7 @@ std::optional<RemeshSettings> read_remesh(MapReader& root, double radius_m) {
   out.with_static = keys.boolean("with_static", true);
   if (keys.has("cells")) out.cells = keys.integer("cells", 12, 2'000'000'000);
   keys.each("fixed", [&](const ConfigNode& node, const std::string& path, ConfigNode& effective) {
-    out.fixed.push_back(read_region(node, path, effective, radius_m));
+    read_region(node, path, effective, radius_m, out);
   });
   return out;
 }

@@ -19,6 +19,7 @@ constexpr const char* kNormal = "surface_normal_sea_water_velocity";
 constexpr const char* kEnergy = "eddy_kinetic_energy";
 constexpr const char* kHeight = "sea_surface_height_above_geoid";
 constexpr const char* kIndicator = "remesh_indicator";
+constexpr const char* kSpacing = "wanted_spacing";
 
 std::vector<const char*> imports_of(SolutionField field) {
   switch (field) {
@@ -33,13 +34,15 @@ std::vector<const char*> imports_of(SolutionField field) {
       return {kHeight};
     case SolutionField::indicator:
       return {kIndicator};
+    case SolutionField::spacing:
+      return {kSpacing};
   }
   return {};
 }
 
 const char* name_of(SolutionField field) {
-  constexpr const char* kNames[] = {"velocity", "normal_velocity",    "energy",
-                                    "height",   "vorticity_gradient", "indicator"};
+  constexpr const char* kNames[] = {"velocity",           "normal_velocity", "energy", "height",
+                                    "vorticity_gradient", "indicator",       "spacing"};
   return kNames[static_cast<std::size_t>(field)];
 }
 
@@ -72,6 +75,11 @@ Array<double> signal_of(parallel::Executor& exec, SolutionField field,
   return {mean.begin(), mean.end()};
 }
 
+/// The velocity whose mean carries a source's signal.
+SolutionField flow_of(SolutionField field) {
+  return field == SolutionField::normal_velocity ? field : SolutionField::velocity;
+}
+
 }  // namespace
 
 struct Solution::Values {
@@ -83,13 +91,17 @@ struct Solution::Values {
 Solution::Solution(const RemeshSettings& settings)
     : sources_(settings.sources), options_(settings.statistics) {
   for (const SolutionSource& source : sources_) {
-    const bool is_known =
-        std::any_of(trackers_.begin(), trackers_.end(),
-                    [&](const Tracker& tracker) { return tracker.field == source.field; });
-    if (is_known) continue;
-    trackers_.emplace_back();
-    trackers_.back().field = source.field;
+    track(source.field);
+    if (source.upstream) track(flow_of(source.field));
   }
+}
+
+void Solution::track(SolutionField field) {
+  const bool is_known = std::any_of(trackers_.begin(), trackers_.end(),
+                                    [&](const Tracker& one) { return one.field == field; });
+  if (is_known) return;
+  trackers_.emplace_back();
+  trackers_.back().field = field;
 }
 
 std::vector<FieldTraits> Solution::imports(const RemeshSettings& settings) {
@@ -111,6 +123,11 @@ std::vector<FieldTraits> Solution::imports(const RemeshSettings& settings) {
                      .standard_name = "",
                      .units = "1",
                      .long_name = "amplitude that the spacing follows, of the host's own unit"});
+    } else if (tracker.field == SolutionField::spacing) {
+      out.push_back({.name = kSpacing,
+                     .standard_name = "",
+                     .units = "m",
+                     .long_name = "distance to the neighbours that the host asks for"});
     }
   }
   return out;
@@ -180,7 +197,7 @@ void Solution::add(parallel::Executor& exec, const State& imports, const Grid& g
   for (std::size_t i = 0; i < trackers_.size(); ++i) {
     if (samples[i].fields.empty()) continue;
     if (fresh[i].statistics) trackers_[i] = std::move(fresh[i]);
-    trackers_[i].statistics->add(exec, samples[i]);
+    trackers_[i].statistics->take(exec, samples[i]);
   }
 }
 
@@ -195,18 +212,34 @@ const Solution::Tracker& Solution::tracker_of(SolutionField field) const {
                        [&](const Tracker& tracker) { return tracker.field == field; });
 }
 
+SpacingSource Solution::source_of(parallel::Executor& exec, const Grid& grid,
+                                  const SolutionSource& source) const {
+  const auto raster = [&](const Tracker& tracker, std::span<const double> values) {
+    return tracker.is_in_cells()
+               ? raster_of_cells(exec, grid, values, cell_resolution_rad(grid), source.name)
+               : raster_of_table(tracker.axes.lon_deg, tracker.axes.lat_deg, values, source.name);
+  };
+  const Tracker& tracker = tracker_of(source.field);
+  Raster signal = raster(tracker, signal_of(exec, source.field, *tracker.statistics));
+  if (source.upstream) {
+    const Tracker& flow = tracker_of(flow_of(source.field));
+    const Raster east = raster(flow, flow.statistics->mean(0));
+    const Raster north = raster(flow, flow.statistics->mean(1));
+    signal = spread_upstream(exec, signal, {east, north}, *source.upstream, grid.surface.scale_m());
+  }
+  auto field = std::make_shared<const Raster>(std::move(signal));
+  if (const auto* const wanted = std::get_if<WantedSpacing>(&source.law)) {
+    return {source.name, RasterSource{std::move(field), 1.0, wanted->missing_m}};
+  }
+  EddySource law = std::get<EddySource>(source.law);
+  law.field = std::move(field);
+  return {source.name, std::move(law)};
+}
+
 std::vector<SpacingSource> Solution::sources(parallel::Executor& exec, const Grid& grid) const {
   std::vector<SpacingSource> out;
-  for (const SolutionSource& source : sources_) {
-    const Tracker& tracker = tracker_of(source.field);
-    const Array<double> signal = signal_of(exec, source.field, *tracker.statistics);
-    EddySource law = source.law;
-    law.field = std::make_shared<const Raster>(
-        tracker.is_in_cells()
-            ? raster_of_cells(exec, grid, signal, cell_resolution_rad(grid), source.name)
-            : raster_of_table(tracker.axes.lon_deg, tracker.axes.lat_deg, signal, source.name));
-    out.push_back({source.name, std::move(law)});
-  }
+  out.reserve(sources_.size());
+  for (const SolutionSource& source : sources_) out.push_back(source_of(exec, grid, source));
   return out;
 }
 

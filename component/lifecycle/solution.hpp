@@ -63,6 +63,9 @@ class Solution {
   Values values_of(parallel::Executor& exec, SolutionField field, const State& imports,
                    const Grid& grid) const;
   const Tracker& tracker_of(SolutionField field) const;
+  void track(SolutionField field);
+  SpacingSource source_of(parallel::Executor& exec, const Grid& grid,
+                          const SolutionSource& source) const;
 
   std::vector<SolutionSource> sources_;
   StatisticsOptions options_;

@@ -16,19 +16,14 @@ std::size_t fill_row(const Mesh& mesh, Index vertex, Index first,
                      std::array<Index, NeighbourRows::kWidth>& row, std::vector<Index>* beyond) {
   row.fill(vertex);
   std::size_t n = 0;
-  Index tri = first;
-  do {
-    const Triangle& t = mesh.triangle(tri);
-    const int k = next_corner(corner_at(t, vertex));
-    const Index neighbour = t.vertex[static_cast<std::size_t>(k)];
+  for_each_neighbour(mesh, first, vertex, [&](Index neighbour) {
     if (n < NeighbourRows::kWidth) {
       row[n] = neighbour;
     } else if (beyond != nullptr) {
       beyond->push_back(neighbour);
     }
     ++n;
-    tri = t.neighbour[static_cast<std::size_t>(k)];
-  } while (tri != first);
+  });
   return n;
 }
 

@@ -104,17 +104,11 @@ void add_ring(const MeshView& view, std::size_t begin, std::vector<Index>& verti
   const std::size_t end = vertices.size();
   for (std::size_t i = begin; i < end; ++i) {
     const Index vertex = vertices[i];
-    const Index first = view.at_vertex[at(vertex)];
-    Index tri = first;
-    do {
-      const Triangle& t = view.mesh.triangle(tri);
-      const int k = next_corner(corner_at(t, vertex));
-      const Index neighbour = t.vertex[at(k)];
+    for_each_neighbour(view.mesh, view.at_vertex[at(vertex)], vertex, [&](Index neighbour) {
       if (std::find(vertices.begin(), vertices.end(), neighbour) == vertices.end()) {
         vertices.push_back(neighbour);
       }
-      tri = t.neighbour[at(k)];
-    } while (tri != first);
+    });
   }
 }
 

@@ -14,6 +14,10 @@ namespace {
 
 /// Widths beyond which exp(-d^2 / (2 width^2)) is below 2e-8.
 constexpr double kGaussianReach = 6.0;
+/// A pole itself belongs to what lies just beside it.
+constexpr double kNearPole_deg = 90.0 - 1.0e-6;
+/// Places a task; no result depends on it.
+constexpr std::int64_t kPlaceGrain = 1024;
 
 void check_edge(const RegionEdge& edge) {
   for (const double h : {edge.spacing_m, edge.outside_m}) {
@@ -292,8 +296,6 @@ std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& po
                                   const LatLonField& like) {
   std::vector<char> inside(like.values.size(), 0);
   const std::vector<ClosedRing> rings = close_rings(exec, polygons);
-  // A pole itself belongs to what lies just beside it.
-  constexpr double kNearPole = 90.0 - 1.0e-6;
   parallel::for_index(exec, like.n_rows(), kRowGrain, [&](std::int64_t j) {
     const auto row = static_cast<Index>(j);
     const double lat = 180.0 * row / like.n_lat_cells - 90.0;
@@ -301,7 +303,8 @@ std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& po
     std::vector<char> of_one(static_cast<std::size_t>(like.n_lon), 0);
     bool is_crossed = false;
     for (std::size_t r = 0; r < rings.size(); ++r) {
-      const std::vector<double> lon = crossings(rings[r], std::clamp(lat, -kNearPole, kNearPole));
+      const std::vector<double> lon =
+          crossings(rings[r], std::clamp(lat, -kNearPole_deg, kNearPole_deg));
       for (std::size_t k = 0; k + 1 < lon.size(); k += 2) {
         flip_columns(lon[k], lon[k + 1], like.n_lon, of_one.data());
       }
@@ -314,6 +317,34 @@ std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& po
       is_crossed = false;
     }
   });
+  return inside;
+}
+
+std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& polygons,
+                                  std::span<const LonLat> places) {
+  std::vector<char> inside(places.size(), 0);
+  const std::vector<ClosedRing> rings = close_rings(exec, polygons);
+  const auto is_inside = [&](const LonLat& place) {
+    const double lat_deg = std::clamp(place.lat_rad * kDegPerRad, -kNearPole_deg, kNearPole_deg);
+    const double lon_deg = place.lon_rad * kDegPerRad;
+    bool is_in_one = false;
+    for (std::size_t r = 0; r < rings.size(); ++r) {
+      const std::vector<double> lon = crossings(rings[r], lat_deg);
+      for (std::size_t k = 0; k + 1 < lon.size(); k += 2) {
+        // Stretches are at most a turn long.
+        if (turn_into(lon_deg, lon[k]) < lon[k + 1]) is_in_one = !is_in_one;
+      }
+      const bool is_last =
+          r + 1 == rings.size() || rings[r + 1].ring.polygon != rings[r].ring.polygon;
+      if (is_last && is_in_one) return true;
+    }
+    return false;
+  };
+  parallel::for_index(exec, static_cast<std::int64_t>(places.size()), kPlaceGrain,
+                      [&](std::int64_t i) {
+                        const auto k = static_cast<std::size_t>(i);
+                        inside[k] = is_inside(places[k]) ? 1 : 0;
+                      });
   return inside;
 }
 

@@ -4,6 +4,7 @@
 // Angles are those of the table's lon/lat taken on the unit sphere; a length in metres becomes an
 // angle by division by the largest radius.
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -69,5 +70,8 @@ void fill_polygon(parallel::Executor& exec, const PolygonSource& source, LatLonF
 /// to it.
 std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& polygons,
                                   const LatLonField& like);
+/// The same at places. Each looks at all sides of the rings that reach its latitude.
+std::vector<char> inside_polygons(parallel::Executor& exec, const PolygonSet& polygons,
+                                  std::span<const LonLat> places);
 
 }  // namespace delos

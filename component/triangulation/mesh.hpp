@@ -65,6 +65,20 @@ inline int own_corner_at(const Triangle& tri, Index vertex) {
   return static_cast<int>(tri.vertex[1] == vertex) + 2 * static_cast<int>(tri.vertex[2] == vertex);
 }
 
+/// visit(neighbour) for the neighbours of a vertex of a closed mesh, counter-clockwise, from the
+/// corner after the vertex in `first_triangle`, which is one at the vertex.
+template <class Visit>
+inline void for_each_neighbour(const Mesh& mesh, Index first_triangle, Index vertex,
+                               const Visit& visit) {
+  Index tri = first_triangle;
+  do {
+    const Triangle& t = mesh.triangle(tri);
+    const auto k = static_cast<std::size_t>(next_corner(corner_at(t, vertex)));
+    visit(t.vertex[k]);
+    tri = t.neighbour[k];
+  } while (tri != first_triangle);
+}
+
 /// One triangle at every vertex (the one of lowest id), kNone for a vertex of none.
 std::vector<Index> triangle_at_vertex(const Mesh& mesh);
 /// The same by all threads.

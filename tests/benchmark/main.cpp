@@ -12,6 +12,7 @@
 #include "benchmark/cases.hpp"
 #include "benchmark/child.hpp"
 #include "benchmark/measure.hpp"
+#include "benchmark/remesh_cases.hpp"
 #include "benchmark/sizing_cases.hpp"
 #include "io/data_files.hpp"
 #include "support/temporary_folder.hpp"
@@ -27,6 +28,7 @@ constexpr char kUsage[] =
     "  --large          the large cases too\n"
     "  --label TEXT     stands in the line on the machine, e.g. the commit\n"
     "  --sizing         the kernels of the sizing layer instead; CASE names some of them\n"
+    "  --remesh         local remeshes beside fresh meshes instead; CASE names some of them\n"
     "  --list           names of the cases, nothing is run\n";
 
 struct Arguments {
@@ -35,6 +37,7 @@ struct Arguments {
   int repeats = 1;
   bool with_large = false;
   bool only_sizing = false;
+  bool only_remesh = false;
   bool only_lists = false;
   std::string label;
 };
@@ -77,6 +80,8 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.with_large = true;
     } else if (words[i] == "--sizing") {
       arguments.only_sizing = true;
+    } else if (words[i] == "--remesh") {
+      arguments.only_remesh = true;
     } else if (words[i] == "--list") {
       arguments.only_lists = true;
     } else if (words[i].rfind("--", 0) == 0) {
@@ -200,8 +205,38 @@ bool run_sizing(const Arguments& arguments) {
   return is_good;
 }
 
+/// Local remeshes; false when the bits of one depend on the threads.
+bool run_remesh(const Arguments& arguments) {
+  bool is_good = true;
+  std::string name, digest;
+  const auto timings = time_remesh(arguments.threads, arguments.repeats, arguments.names);
+  if (timings.empty()) throw std::invalid_argument("no such remesh");
+  for (const RemeshTiming& timing : timings) {
+    Json line = {{"remesh", timing.name},
+                 {"threads", timing.threads},
+                 {"before", timing.n_before},
+                 {"after", timing.n_after},
+                 {"removed", timing.n_removed},
+                 {"inserted", timing.n_inserted},
+                 {"fresh_s", timing.fresh_s},
+                 {"remesh_s", timing.remesh_s},
+                 {"share", timing.remesh_s / timing.fresh_s},
+                 {"digest", timing.digest}};
+    for (const PhaseTime& phase : timing.phases) {
+      Json& total = line[phase.phase + "_s"];
+      total = (total.is_null() ? 0.0 : total.get<double>()) + phase.wall_s;
+    }
+    print(line);
+    is_good = is_good && (timing.name != name || timing.digest == digest);
+    name = timing.name;
+    digest = timing.digest;
+  }
+  return is_good;
+}
+
 int run_all(const Arguments& arguments) {
   if (arguments.only_sizing) return run_sizing(arguments) ? 0 : 1;
+  if (arguments.only_remesh) return run_remesh(arguments) ? 0 : 1;
   const std::vector<Case> cases = chosen(arguments);
   if (arguments.only_lists) {
     print_names();

@@ -25,7 +25,7 @@ BELOW = {
     "domain": ["partition", "dual", "sizing", "triangulation", "geometry", "core"],
     "metrics": ["dual", "sizing", "triangulation", "geometry", "core"],
     "remap": ["dual", "triangulation", "geometry", "core"],
-    "adapt": ["remap", "dual", "relax", "refine", "sizing", "triangulation", "geometry", "time", "core"],
+    "adapt": ["remap", "metrics", "dual", "relax", "refine", "sizing", "triangulation", "geometry", "time", "core"],
     "io": ["dual", "sizing", "triangulation", "geometry", "core"],
     "pictures": ["metrics", "dual", "sizing", "triangulation", "geometry", "core"],
     "lifecycle": ["adapt", "remap", "io", "metrics", "domain", "partition", "dual", "relax", "refine", "sizing",

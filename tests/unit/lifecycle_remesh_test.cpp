@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 
 #include "lifecycle/component.hpp"
@@ -35,11 +37,15 @@ Settings settings_of(const std::string& more = "") {
 /// A component with its host: imports are values in the cells.
 class Model {
  public:
-  explicit Model(const std::string& more = "", int threads = 1, const std::string& restart = "") {
+  explicit Model(const std::string& more = "", int threads = 1, const std::string& restart = "")
+      : Model(settings_of(more), threads, restart) {}
+  explicit Model(Settings settings, int threads = 1, const std::string& restart = "",
+                 const std::atomic<bool>* cancel = nullptr) {
     ComponentOptions options;
     options.threads = threads;
+    options.cancel = cancel;
     options.on_log = [this](LogLevel, const std::string& line) { log += line + "\n"; };
-    component = std::make_unique<Component>(settings_of(more), options);
+    component = std::make_unique<Component>(std::move(settings), options);
     component->advertise();
     restart.empty() ? component->realize()
                     : static_cast<void>(component->read_restart(restart, clock(0)));
@@ -162,12 +168,249 @@ TEST_CASE("a value that is no number stops a run before anything changes") {
   model.run_day(1, kStrong);
 }
 
-TEST_CASE("a budget is met as well as what is kept allows") {
-  Model model("  cells: 1500\n");
+TEST_CASE("a budget is met within 1 % whatever is kept") {
+  // The uniform grid of the start has some 410 cells; half of it may stay where the budget lets the
+  // still south keep a spacing within tau.
+  const std::string fixed =
+      "  fixed: [{type: box, west: 0 deg, east: 120 deg, south: -60 deg, north: 60 deg}]\n";
+  struct Case {
+    int cells;
+    std::string more;
+  };
+  const std::vector<Case> cases = {{1500, ""},    {900, ""},    {1100, ""}, {1300, ""},
+                                   {1500, ""},    {2000, ""},   {3000, ""}, {1500, "  tau: 1.1\n"},
+                                   {1300, fixed}, {2500, fixed}};
+  for (const Case& one : cases) {
+    CAPTURE(one.cells);
+    CAPTURE(one.more);
+    Model model(text("  cells: ", one.cells, "\n", one.more));
+    for (int day = 0; day < 10; ++day) model.run_day(day, kStrong);
+    CAPTURE(model.component->remesh_failure());
+    CAPTURE(model.log);
+    REQUIRE(model.component->generation() == 2);
+    const auto n = static_cast<double>(model.component->product()->mesh.n_vertices());
+    CHECK(std::abs(n / one.cells - 1.0) <= 0.01);
+    // The second remesh, of a graded grid that has moved, too.
+    for (int day = 10; day < 40; ++day) model.run_day(day, day < 20 ? 0.4 : 0.25);
+    const auto again = static_cast<double>(model.component->product()->mesh.n_vertices());
+    CHECK(std::abs(again / one.cells - 1.0) <= 0.01);
+  }
+}
+
+namespace {
+
+/// Degrees from -180 to 180.
+double lon_deg_of(const LonLat& place) {
+  const double lon_deg = place.lon_rad * kDegPerRad;
+  return lon_deg > 180.0 ? lon_deg - 360.0 : lon_deg;
+}
+
+/// A host that gives one field of values in the cells, of its own making.
+template <class Value>
+void run_with(Model& model, int day, const std::string& name, const Value& value) {
+  const Array<LonLat>& places = model.component->product()->grid->cell_lon_lat;
+  model.u.assign(places.size(), 0.0);
+  for (std::size_t i = 0; i < model.u.size(); ++i) {
+    model.u[i] = value(lon_deg_of(places[i]), places[i].lat_rad * kDegPerRad);
+  }
+  model.component->imports()->item(name)->bind(model.u);
+  model.run_without_values(day);
+}
+
+/// Cells whose generators lie in a box.
+std::int64_t cells_in(const Model& model, double west, double east, double south, double north) {
+  std::int64_t n = 0;
+  for (const LonLat& place : model.component->product()->grid->cell_lon_lat) {
+    const double lon = lon_deg_of(place), lat = place.lat_rad * kDegPerRad;
+    if (lon > west && lon < east && lat > south && lat < north) ++n;
+  }
+  return n;
+}
+
+Settings with_sources(const std::string& sources) {
+  const std::string all = kConfig;
+  return read_settings(parse_config(all.substr(0, all.find("  sources: [{type: eke")) +
+                                        "  sources: [" + sources + "]\n",
+                                    "remesh.yaml"),
+                       ".");
+}
+
+}  // namespace
+
+TEST_CASE("the variability of the sea surface makes the grid fine from YAML on") {
+  Model model(
+      with_sources("{type: ssh_variability, form: threshold, threshold: 0.1 m, "
+                   "spacing_below: 1200 km, spacing_above: 500 km}"));
+  const std::int64_t before = cells_in(model, -60, 60, 0, 60);
+  for (int day = 0; day < 10; ++day) {
+    run_with(model, day, "sea_surface_height_above_geoid", [&](double lon, double lat) {
+      const bool is_lively = std::abs(lon) < 60.0 && lat > 0.0 && lat < 60.0;
+      return 0.5 + (is_lively ? (day % 2 == 0 ? 0.3 : -0.3) : 0.0);
+    });
+  }
+  REQUIRE(model.component->generation() == 2);
+  CHECK(cells_in(model, -60, 60, 0, 60) > 2 * before);
+}
+
+TEST_CASE("the gradient of vorticity makes the grid fine from YAML on") {
+  Model model(
+      with_sources("{type: vorticity_gradient, quiet: [1e-14, 1200 km], "
+                   "energetic: [1e-13, 500 km]}"));
+  const std::int64_t before = cells_in(model, -180, 180, 0, 60);
+  for (int day = 0; day < 10; ++day) {
+    const Array<LonLat>& places = model.component->product()->grid->cell_lon_lat;
+    model.v.assign(places.size(), 0.0);
+    model.component->imports()->item("surface_northward_sea_water_velocity")->bind(model.v);
+    // A jet in the north: its vorticity changes sign over some 20 degrees.
+    run_with(model, day, "surface_eastward_sea_water_velocity", [](double, double lat) {
+      const double d = (lat - 30.0) / 15.0;
+      return std::exp(-d * d);
+    });
+  }
+  REQUIRE(model.component->generation() == 2);
+  CHECK(cells_in(model, -180, 180, 0, 60) > 2 * before);
+}
+
+TEST_CASE("the host's own spacing is taken as it is") {
+  const std::string source = "{type: wanted_spacing, missing: 1000 km}";
+  const auto wanted = [](double, double lat) { return lat > 0.0 ? 450e3 : 1000e3; };
+  Model model(with_sources(source));
+  for (int day = 0; day < 10; ++day) run_with(model, day, "wanted_spacing", wanted);
+  REQUIRE(model.component->generation() == 2);
+  const SpacingField& spacing = model.component->product()->spacing;
+  const double scale_m = model.component->product()->settings.surface.scale_m();
+  CHECK(spacing.at(0.0, 0.6, 0.8) * scale_m == doctest::Approx(450e3).epsilon(0.01));
+  CHECK(spacing.at(0.0, 0.6, -0.8) * scale_m == doctest::Approx(1000e3).epsilon(0.01));
+
+  // On the host's own table, where a value may be missing.
+  Model gridded(with_sources(source));
+  LatLonAxes axes;
+  for (double lon = 0.0; lon < 360.0; lon += 5.0) axes.lon_deg.push_back(lon);
+  for (double lat = 87.5; lat > -90.0; lat -= 5.0) axes.lat_deg.push_back(lat);
+  std::vector<double> values;
+  for (const double lat : axes.lat_deg) {
+    for (const double lon : axes.lon_deg) {
+      values.push_back(lat < -40.0 ? std::nan("") : wanted(lon, lat));
+    }
+  }
+  for (int day = 0; day < 10; ++day) {
+    const auto item = gridded.component->imports()->item("wanted_spacing");
+    item->place_on(axes);
+    item->bind(values);
+    gridded.run_without_values(day);
+  }
+  REQUIRE(gridded.component->generation() == 2);
+  CHECK(gridded.component->product()->spacing.at(0.0, 0.6, 0.8) * scale_m ==
+        doctest::Approx(450e3).epsilon(0.01));
+  // What is no spacing leaves the grid.
+  Model wrong(with_sources(source));
+  for (int day = 0; day < 10; ++day) {
+    run_with(wrong, day, "wanted_spacing",
+             [](double, double lat) { return lat > 0.0 ? -5.0 : 1e6; });
+  }
+  CHECK(wrong.component->generation() == 1);
+  CHECK(wrong.component->remesh_failure().find("wanted_spacing") != std::string::npos);
+}
+
+TEST_CASE("what lies upstream of the eddies becomes fine when it is asked for") {
+  const auto cells_upstream = [](const std::string& more) {
+    Model model(
+        with_sources("{type: eke, form: threshold, threshold: 0.2 m/s, spacing_below: "
+                     "1200 km, spacing_above: 500 km" +
+                     more + "}"));
+    for (int day = 0; day < 10; ++day) {
+      const Array<LonLat>& places = model.component->product()->grid->cell_lon_lat;
+      model.v.assign(places.size(), 0.0);
+      for (std::size_t i = 0; i < model.v.size(); ++i) {
+        const double lon = places[i].lon_rad * kDegPerRad, lat = places[i].lat_rad * kDegPerRad;
+        const bool is_lively = lon > 0.0 && lon < 60.0 && std::abs(lat) < 30.0;
+        model.v[i] = is_lively ? (day % 2 == 0 ? 2.0 : -2.0) : 0.0;
+      }
+      model.component->imports()->item("surface_northward_sea_water_velocity")->bind(model.v);
+      run_with(model, day, "surface_eastward_sea_water_velocity",
+               [](double, double) { return 0.5; });
+    }
+    REQUIRE(model.component->generation() == 2);
+    return std::pair(cells_in(model, -50, -15, -25, 25), cells_in(model, 75, 110, -25, 25));
+  };
+  const auto plain = cells_upstream("");
+  const auto spread = cells_upstream(", upstream: {length: 6000 km}");
+  CHECK(spread.first > 2 * plain.first);
+  CHECK(spread.second < 1.3 * static_cast<double>(plain.second));
+}
+
+TEST_CASE("a polygon from a file stays, and is missed at the start when it is not there") {
+  const testing::TemporaryFolder folder;
+  std::ofstream(folder.file("regions.geojson"))
+      << R"({"type": "Feature", "properties": {"name": "box"}, "geometry": {"type": "Polygon",
+           "coordinates": [[[0, 20], [60, 20], [60, 70], [0, 70], [0, 20]]]}})";
+  const auto more = [&](const std::string& name) {
+    return text("  fixed: [{type: polygon, file: ", folder.file(name), "}]\n");
+  };
+  Model model(more("regions.geojson"));
+  const Grid before = *model.component->product()->grid;
+  std::filesystem::remove(folder.file("regions.geojson"));  // it has been read
   for (int day = 0; day < 10; ++day) model.run_day(day, kStrong);
   REQUIRE(model.component->generation() == 2);
-  CHECK(static_cast<double>(model.component->product()->mesh.n_vertices()) ==
-        doctest::Approx(1500.0).epsilon(0.02));
+  const Grid& after = *model.component->product()->grid;
+  int n_held = 0;
+  for (std::size_t i = 0; i < before.cell_position.size(); ++i) {
+    const double lon = before.cell_lon_lat[i].lon_rad * kDegPerRad;
+    const double lat = before.cell_lon_lat[i].lat_rad * kDegPerRad;
+    if (!(lon > 0.0 && lon < 60.0 && lat > 20.0 && lat < 70.0)) continue;
+    ++n_held;
+    CHECK(std::find(after.cell_position.begin(), after.cell_position.end(),
+                    before.cell_position[i]) != after.cell_position.end());
+  }
+  CHECK(n_held > 10);
+  expect_error(ErrorKind::input, {"remesh.fixed.0.file", "nowhere.geojson"},
+               [&] { Model missing(more("nowhere.geojson")); });
+}
+
+TEST_CASE("whatever fails at a remesh leaves grid, fields and statistics") {
+  struct Case {
+    std::string more, reason;
+  };
+  // A certificate that the uniform grid has and the graded one misses; a fixed region that holds
+  // about as many cells as the budget.
+  Model free;
+  const double before = free.component->product()->report.quality.grading_max.value;
+  for (int day = 0; day < 10; ++day) free.run_day(day, kStrong);
+  const double after = free.component->product()->report.quality.grading_max.value;
+  REQUIRE(after > before);
+  const std::vector<Case> cases = {
+      {text("require: {grading_max: ", 0.5 * (before + after), "}\n"), "grading_max"},
+      {"  cells: 215\n  threshold: 0\n"
+       "  fixed: [{type: box, west: -180 deg, east: 180 deg, south: -90 deg, north: 0 deg}]\n",
+       "fixed regions"}};
+  for (const Case& one : cases) {
+    CAPTURE(one.reason);
+    Model model(one.more);
+    const auto product = model.component->product();
+    const auto area = model.component->exports()->item("cell_area");
+    for (int day = 0; day < 10; ++day) model.run_day(day, kStrong);
+    CAPTURE(model.component->remesh_failure());
+    CHECK(model.component->remesh_failure().find(one.reason) != std::string::npos);
+    CHECK(model.component->product() == product);
+    CHECK(model.component->generation() == 1);
+    CHECK(area->data().data() == product->grid->cell_area_m2.data());
+    CHECK(model.exported("remesh_decision") == -1.0);
+    model.run_day(10, kStrong);
+  }
+}
+
+TEST_CASE("a request to stop leaves the grid, and the next alarm tries again") {
+  std::atomic<bool> cancel = false;
+  Model model(settings_of(), 1, "", &cancel);
+  for (int day = 0; day < 9; ++day) model.run_day(day, kStrong);
+  cancel = true;
+  model.run_day(9, kStrong);
+  CHECK(model.component->generation() == 1);
+  CHECK_FALSE(model.component->remesh_failure().empty());
+  cancel = false;
+  for (int day = 10; day < 20; ++day) model.run_day(day, kStrong);
+  CHECK(model.component->generation() == 2);
+  CHECK(model.component->remesh_failure().empty());
 }
 
 TEST_CASE("the remeshed grid has the same bits for any number of threads") {

@@ -265,7 +265,7 @@ TEST_CASE("the section remesh is read with its defaults, and left out there is n
   CHECK(remesh.statistics.length_s == 30.0 * 86400.0);
   REQUIRE(remesh.sources.size() == 1);
   CHECK(remesh.sources[0].field == SolutionField::velocity);
-  CHECK(remesh.sources[0].law.fill_amplitude == 0.03);
+  CHECK(std::get<EddySource>(remesh.sources[0].law).fill_amplitude == 0.03);
   CHECK(remesh.with_static);
   CHECK(remesh.cells == 0);
   CHECK(remesh.fixed.empty());
@@ -280,10 +280,11 @@ remesh:
   minimum_interval: P1M
   sources:
     - {type: eke, from: normal_velocity, form: threshold, threshold: 0.02 m2/s2, spacing_below: 60 km, spacing_above: 15 km}
-    - {type: eke, from: energy, smooth: 1 deg}
-    - {type: ssh_variability, quiet: [0.02 m, 60 km], energetic: [0.3 m, 10 km]}
+    - {type: eke, from: energy, smooth: 1 deg, upstream: {time: 20 d}}
+    - {type: ssh_variability, quiet: [0.02 m, 60 km], energetic: [0.3 m, 10 km], upstream: {length: 500 km}}
     - {type: vorticity_gradient, quiet: [1e-12, 60 km], energetic: [1e-10, 10 km], clamp: 1e-9}
     - {type: indicator, form: threshold, threshold: 0.5, spacing_below: 60 km, spacing_above: 15 km}
+    - {type: wanted_spacing, missing: 80 km}
   with_static: false
   tau: 1.3
   threshold: 0.2
@@ -292,18 +293,24 @@ remesh:
   fixed:
     - {type: disc, centre: [10 deg, 50 deg], radius: 500 km}
     - {type: box, west: 170 deg, east: -170 deg, south: -10 deg, north: 10 deg}
+    - {type: polygon, file: regions.geojson, feature: Baltic}
 )");
   const RemeshSettings& remesh = *settings.remesh;
-  constexpr SolutionField kFields[] = {SolutionField::normal_velocity, SolutionField::energy,
-                                       SolutionField::height, SolutionField::vorticity_gradient,
-                                       SolutionField::indicator};
-  REQUIRE(remesh.sources.size() == 5);
-  for (std::size_t i = 0; i < 5; ++i) CHECK(remesh.sources[i].field == kFields[i]);
-  CHECK(std::get<EddyThreshold>(remesh.sources[0].law.form).amplitude == doctest::Approx(0.2));
-  CHECK(remesh.sources[1].law.smooth_rad == doctest::Approx(kRadPerDeg));
-  CHECK(remesh.sources[2].law.quantity == EddyQuantity::height_variance);
-  CHECK(remesh.sources[3].law.max_energy == 1e-9);
-  CHECK(remesh.sources[3].law.quantity == EddyQuantity::amplitude);
+  constexpr SolutionField kFields[] = {
+      SolutionField::normal_velocity,    SolutionField::energy,    SolutionField::height,
+      SolutionField::vorticity_gradient, SolutionField::indicator, SolutionField::spacing};
+  REQUIRE(remesh.sources.size() == 6);
+  for (std::size_t i = 0; i < 6; ++i) CHECK(remesh.sources[i].field == kFields[i]);
+  CHECK(std::get<EddyThreshold>(std::get<EddySource>(remesh.sources[0].law).form).amplitude ==
+        doctest::Approx(0.2));
+  CHECK(std::get<EddySource>(remesh.sources[1].law).smooth_rad == doctest::Approx(kRadPerDeg));
+  CHECK(std::get<EddySource>(remesh.sources[2].law).quantity == EddyQuantity::height_variance);
+  CHECK(std::get<EddySource>(remesh.sources[3].law).max_energy == 1e-9);
+  CHECK(std::get<EddySource>(remesh.sources[3].law).quantity == EddyQuantity::amplitude);
+  CHECK_FALSE(remesh.sources[0].upstream);
+  CHECK(remesh.sources[1].upstream->time_s == 20.0 * 86400.0);
+  CHECK(remesh.sources[2].upstream->length_m == 500e3);
+  CHECK(std::get<WantedSpacing>(remesh.sources[5].law).missing_m == 80e3);
   CHECK_FALSE(remesh.with_static);
   CHECK(remesh.policy.minimum_interval == TimeInterval::of_months(1));
   CHECK(remesh.policy.tau == 1.3);
@@ -311,6 +318,10 @@ remesh:
   REQUIRE(remesh.fixed.size() == 2);
   CHECK(std::get<FixedDisc>(remesh.fixed[0]).radius_rad == doctest::Approx(500.0 / 6371.22));
   CHECK(std::get<FixedBox>(remesh.fixed[1]).east_deg == -170.0);
+  REQUIRE(remesh.fixed_files.size() == 1);
+  CHECK(remesh.fixed_files[0].file == "regions.geojson");
+  CHECK(remesh.fixed_files[0].feature == "Baltic");
+  CHECK(remesh.fixed_files[0].where.find("remesh.fixed.2.file") != std::string::npos);
 }
 
 TEST_CASE("mistakes in the section remesh are named") {
@@ -331,6 +342,13 @@ TEST_CASE("mistakes in the section remesh are named") {
   has(error("interval: P1M, statistics: {window: fixed}" + sources), "remesh.statistics.length");
   has(error("interval: P1M, statistics: {length: 3 d}" + sources), "Remove it");
   has(error("interval: P1M, fixed: [{type: disk}]" + sources), "remesh.fixed.0.type");
+  has(error("interval: P1M, fixed: [{type: polygon}]" + sources), "remesh.fixed.0.file");
+  has(error("interval: P1M, sources: [{type: eke, upstream: {}}]"),
+      "either a length or a time is needed");
+  has(error("interval: P1M, sources: [{type: eke, upstream: {length: 5 km, time: 3 d}}]"),
+      "either a length or a time is needed");
+  has(error("interval: P1M, sources: [{type: eke, upstream: {length: -5 km}}]"), "upstream.length");
+  has(error("interval: P1M, sources: [{type: wanted_spacing, quiet: [1, 2 km]}]"), "unknown key");
   has(error_of("generator: icosahedral\nsubdivisions: 4\nremesh: {interval: P1M}\n"),
       "remesh: is not used by generator: icosahedral");
 }
