@@ -47,6 +47,37 @@ void append_star(const Mesh& mesh, Index vertex, Index at_vertex, std::vector<In
   } while (tri != at_vertex);
 }
 
+// Whether a vertex may be put at p, the centre of the ball of `seed`, as far as fixed edges go. It
+// may not where it would come between the ends of one, into the circle that has the edge for its
+// diameter, beyond one, or so near to a fixed vertex that ever smaller triangles would follow.
+bool lines_allow(const Mesh& mesh, const BoundsInput& input, Index seed, const Vertex& p) {
+  constexpr double kNearest = 0.5;  // of the spacing
+  const Vec3 q = p.position();
+  std::vector<Index> cavity{seed};
+  for (std::size_t i = 0; i < cavity.size(); ++i) {
+    const Triangle& t = mesh.triangle(cavity[i]);
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index a = t.vertex[static_cast<std::size_t>(next_corner(static_cast<int>(k)))];
+      const Index b = t.vertex[static_cast<std::size_t>(previous_corner(static_cast<int>(k)))];
+      const Vec3 to_a = mesh.position(a) - q, to_b = mesh.position(b) - q;
+      const double least = kNearest * p.spacing;
+      if (mesh.fixed.has_vertex(a) && to_a.squaredNorm() < least * least) return false;
+      if (mesh.fixed.has_edge(a, b)) {
+        if (to_a.dot(to_b) < 0.0 || !(to_a.cross(to_b).dot(q) > 0.0)) return false;
+        continue;
+      }
+      const Index other = t.neighbour[k];
+      if (std::find(cavity.begin(), cavity.end(), other) != cavity.end()) continue;
+      const auto& v = mesh.triangle(other).vertex;
+      const Vec3 corner = mesh.position(v[0]);
+      const Vec3 centre =
+          input.surface.ball_centre(corner, mesh.position(v[1]), mesh.position(v[2]));
+      if ((q - centre).squaredNorm() < (corner - centre).squaredNorm()) cavity.push_back(other);
+    }
+  }
+  return true;
+}
+
 }  // namespace
 
 BoundsReport enforce_bounds(Context& context, const BoundsInput& input, std::vector<Index> suspects,
@@ -67,8 +98,9 @@ BoundsReport enforce_bounds(Context& context, const BoundsInput& input, std::vec
       const auto& v = mesh.triangle(tri).vertex;
       const Vec3 p =
           surface.ball_centre(mesh.position(v[0]), mesh.position(v[1]), mesh.position(v[2]));
-      const Index vertex =
-          insert_vertex(mesh, surface, {p.x(), p.y(), p.z(), spacing.at(p.x(), p.y(), p.z())}, tri);
+      const Vertex added{p.x(), p.y(), p.z(), spacing.at(p.x(), p.y(), p.z())};
+      if (mesh.fixed.n_vertices() > 0 && !lines_allow(mesh, input, tri, added)) continue;
+      const Index vertex = insert_vertex(mesh, surface, added, tri);
       if (vertex == kNone) continue;
       ++report.n_inserted;
       append_star(mesh, vertex, mesh.n_triangles() - 1, touched);

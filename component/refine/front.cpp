@@ -177,6 +177,9 @@ void TileFront::load(std::size_t tile) {
   queue_.clear();
   mesh_.ball_surface =
       input_.surface.radii().minCoeff() < kFlattestForPlanes ? &input_.surface : nullptr;
+  const bool has_line =
+      !skeleton_vertices_.empty() && skeleton.mesh.fixed.has_vertex(skeleton_vertices_.front());
+  mesh_.star_surface = has_line ? &input_.surface : mesh_.ball_surface;
   load_triangles(tile);
 }
 

@@ -9,6 +9,7 @@
 #include "refine/bounds.hpp"
 #include "refine/curvature.hpp"
 #include "refine/front.hpp"
+#include "refine/line_network.hpp"
 #include "refine/skeleton.hpp"
 #include "refine/tiles.hpp"
 #include "triangulation/flip.hpp"
@@ -70,6 +71,18 @@ Assembly refine_tiles(Context& context, const FrontInput& input, Assembler assem
   return assembler.finish();
 }
 
+LineNetwork network_of(const Ellipsoid& surface, const SpacingField& spacing,
+                       const std::vector<GivenLine>& lines, RefineReport& report) {
+  LineNetwork network = make_network(surface, spacing, lines);
+  report.n_given_points = network.n_given;
+  report.n_crossings = network.n_crossings;
+  for (const LineNetwork::SharpCorner& corner : network.sharp_corners) {
+    report.sharp_corners.push_back(
+        {network.nodes[static_cast<std::size_t>(corner.node)].position, corner.angle_deg});
+  }
+  return network;
+}
+
 }  // namespace
 
 Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
@@ -79,7 +92,8 @@ Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spac
   const Tiling tiling =
       make_tiles(context.exec, surface, spacing, options.tile_vertices, kMaxVertices);
   const Phase phase(context.monitor, "refine", static_cast<std::int64_t>(tiling.expected_vertices));
-  Skeleton skeleton = make_skeleton(context, surface, spacing, tiling);
+  const LineNetwork network = network_of(surface, spacing, options.lines, report);
+  const Skeleton skeleton = make_skeleton(context, surface, spacing, {tiling, network});
   report.n_tiles = static_cast<std::int64_t>(tiling.tiles.size());
   report.n_skeleton_vertices = skeleton.mesh.n_vertices();
   context.monitor.advance(report.n_skeleton_vertices);
@@ -88,6 +102,7 @@ Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spac
   Assembly assembly = refine_tiles(context, {surface, spacing, options, skeleton, half_segment},
                                    Assembler(context.exec, skeleton, tiling.expected_vertices));
   Mesh& mesh = assembly.mesh;
+  mesh.fixed = skeleton.mesh.fixed;
   // On the sphere only the tiles' sides may be non-Delaunay; on an ellipsoid the hull predicate
   // of the tile kernel differs a little from the surface Delaunay triangulation everywhere.
   std::vector<Index>& suspects = assembly.off_bounds;

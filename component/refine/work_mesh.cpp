@@ -58,11 +58,11 @@ bool WorkMesh::find_cavity(Index seed, const Vec3& p, Cavity& cavity) const {
   }
   cavity.start.push_back(cavity.start.front());
   return cavity.size() == cavity.triangles.size() + 2 &&
-         (ball_surface == nullptr || is_star(p, cavity));
+         (star_surface == nullptr || is_star(p, cavity));
 }
 
 bool WorkMesh::is_star(const Vec3& p, const Cavity& cavity) const {
-  const Vec3 normal = p.cwiseProduct(ball_surface->inverse_square());
+  const Vec3 normal = p.cwiseProduct(star_surface->inverse_square());
   for (std::size_t i = 0; i < cavity.size(); ++i) {
     const Vec3 from = vertex(cavity.start[i]).position() - p;
     const Vec3 to = vertex(cavity.start[i + 1]).position() - p;

@@ -63,6 +63,9 @@ class WorkMesh {
   std::vector<WorkTriangle> triangles;
   /// Set: circumcircles are judged by surface Delaunay balls on this surface, else by planes.
   const Ellipsoid* ball_surface = nullptr;
+  /// Set: cavities on this surface are looked at whether their point sees all of their border. On
+  /// flat bodies and around lines that end inside a tile it need not.
+  const Ellipsoid* star_surface = nullptr;
   /// Local triangle at a half-segment of this tile, kept up to date: (link code) by local slot.
   std::vector<Index> border_links;
 
@@ -98,7 +101,7 @@ class WorkMesh {
     return dx * dx + dy * dy + dz * dz < kTie * tri.bound;
   }
   /// Whether every triangle of the star that p would have is counter-clockwise seen from outside;
-  /// with planes convexity sees to that, with balls it must be looked at.
+  /// with planes in a convex tile convexity sees to that.
   bool is_star(const Vec3& p, const Cavity& cavity) const;
   mutable std::vector<Index> stack_;
 };

@@ -39,13 +39,14 @@ inline Vertex moved(const Target& target, const Vertex& p, Vec3 step) {
 
 /// One round: x <- project(x + rule.step + rule.momentum (x - x')), x' where the vertex was a round
 /// ago (heavy ball: Polyak 1964, doi:10.1016/0041-5553(64)90137-5), in the first round without
-/// momentum. Spacings are looked up anew, and take_back_spoilt has its say.
+/// momentum. Spacings are looked up anew, and take_back_spoilt has its say. Fixed vertices stay.
 /// rule.step(vertices, rows, place): Vec3, of the vertex of that row.
 template <class Rule>
 void move_round(parallel::Executor& exec, const Target& target, const Rule& rule, Moving& moving,
                 Mesh& mesh) {
   constexpr std::int64_t kMoveGrain = 4096;  // vertices a task: about 0.2 ms
   const std::int64_t n = moving.rows.size();
+  const Index n_fixed = mesh.fixed.n_vertices();
   const bool has_past = !moving.before.empty();
   moving.before.resize(static_cast<std::size_t>(n));
   parallel::for_range(exec, n, kMoveGrain, [&](std::int64_t begin, std::int64_t end) {
@@ -56,7 +57,7 @@ void move_round(parallel::Executor& exec, const Target& target, const Rule& rule
       Vertex& v = moving.before[static_cast<std::size_t>(i)];
       Vec3 step = rule.step(mesh.vertices, moving.rows, place);
       if (has_past) step += rule.momentum * (p.position() - v.position());
-      v = moved(target, p, step);
+      v = moving.rows.vertex_at(place) < n_fixed ? p : moved(target, p, step);
     }
     target.spacing.evaluate(
         std::span(moving.before)

@@ -44,6 +44,13 @@ const Vertex& Patch::across(Index t, int k) const {
   return vertex(triangle(other).vertex[at(side_towards(triangle(other), t))]);
 }
 
+bool Patch::is_fixed_edge(Index a, Index b) const {
+  return std::any_of(fixed_edges.begin(), fixed_edges.end(), [&](const std::array<Index, 2>& edge) {
+    return (edge[0] == a - n_free && edge[1] == b - n_free) ||
+           (edge[0] == b - n_free && edge[1] == a - n_free);
+  });
+}
+
 double Patch::score(Index t) const {
   const Triangle& tri = triangle(t);
   const std::array<const Vertex*, 3> v = {&vertex(tri.vertex[0]), &vertex(tri.vertex[1]),
@@ -85,6 +92,13 @@ ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex
   out.origin.vertices.insert(out.origin.vertices.end(), border.begin(), border.end());
   out.patch.n_free = static_cast<Index>(free_vertices.size());
   for (const Index v : out.origin.vertices) out.patch.vertices.push_back(mesh.vertices[at(v)]);
+  // Ascending ids: the fixed ones come first.
+  for (std::size_t i = 0; i < border.size() && mesh.fixed.has_vertex(border[i]); ++i) {
+    for (std::size_t j = i + 1; j < border.size() && mesh.fixed.has_vertex(border[j]); ++j) {
+      if (!mesh.fixed.has_edge(border[i], border[j])) continue;
+      out.patch.fixed_edges.push_back({static_cast<Index>(i), static_cast<Index>(j)});
+    }
+  }
   for (const Index tri : out.origin.triangles) {
     const Triangle& source = mesh.triangle(tri);
     Triangle t{};
@@ -119,6 +133,9 @@ bool wants_flip(const Patch& patch, Index tri, int side) {
   const Triangle& t = patch.triangle(tri);
   const Index other = t.neighbour[at(side)];
   if (other < 0) return false;
+  if (patch.is_fixed_edge(t.vertex[at(next_corner(side))], t.vertex[at(previous_corner(side))])) {
+    return false;
+  }
   const Triangle& o = patch.triangle(other);
   const auto p = [&](Index v) { return patch.vertex(v).position(); };
   return predicates::prefers_flip(p(t.vertex[at(next_corner(side))]),

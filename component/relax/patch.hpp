@@ -21,7 +21,11 @@ struct Patch {
   std::vector<Vertex> beyond;  ///< opposite to each side of the border, in the triangle outside
   std::vector<Triangle> triangles;
   Index n_free = 0;
+  /// Edges that no flip may take away, by their ends' numbers among the vertices that stay (which
+  /// do not change when free ones come and go).
+  std::vector<std::array<Index, 2>> fixed_edges;
 
+  bool is_fixed_edge(Index a, Index b) const;
   const Vertex& vertex(Index v) const { return vertices[static_cast<std::size_t>(v)]; }
   Triangle& triangle(Index t) { return triangles[static_cast<std::size_t>(t)]; }
   const Triangle& triangle(Index t) const { return triangles[static_cast<std::size_t>(t)]; }
@@ -62,7 +66,7 @@ namespace patch {
 
 /// Turns side k of a triangle into the other diagonal. The side is not on the border.
 void flip(Patch& patch, Index tri, int side);
-/// Lawson flips by the opposite-angle sum until no inner side wants one; how many.
+/// Lawson flips by the opposite-angle sum until no inner side wants one that may; how many.
 int restore_delaunay(Patch& patch);
 /// Takes out a free vertex; the last free vertex gets its id. False (and an unchanged patch) when
 /// its star can't be flipped down to three triangles.

@@ -65,33 +65,36 @@ bool is_bad(const Mesh& mesh, Index tri, double target) {
          score(mesh, tri) < target;
 }
 
-// Ids of the triangles below the target, ascending; of a part when there is one.
-std::vector<Index> find_bad(parallel::Executor& exec, const Mesh& mesh, const RelaxPart* part,
-                            double target) {
-  const auto n = part == nullptr ? static_cast<std::int64_t>(mesh.n_triangles())
-                                 : static_cast<std::int64_t>(part->triangles.size());
-  return parallel::collect<Index>(
-      exec, n, kScanGrain, [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
-        for (std::int64_t i = begin; i < end; ++i) {
-          const Index tri = part == nullptr ? static_cast<Index>(i)
-                                            : part->triangles[static_cast<std::size_t>(i)];
-          if (is_bad(mesh, tri, target)) found.push_back(tri);
-        }
-      });
-}
-
 // A mesh and one triangle at each vertex.
 struct MeshView {
   const Mesh& mesh;
   const TriangleAtVertex& at_vertex;
   const RelaxPart* part;  // null: every vertex is free
 
-  bool is_free(Index vertex) const { return part == nullptr || part->is_free[at(vertex)] != 0; }
+  bool is_free(Index vertex) const {
+    return !mesh.fixed.has_vertex(vertex) && (part == nullptr || part->is_free[at(vertex)] != 0);
+  }
   bool has_free_corner(Index tri) const {
     const auto& v = mesh.triangle(tri).vertex;
     return is_free(v[0]) || is_free(v[1]) || is_free(v[2]);
   }
 };
+
+// Ids of the triangles below the target that have a free corner, ascending; of a part when there is
+// one.
+std::vector<Index> find_bad(parallel::Executor& exec, const MeshView& view, double target) {
+  const auto n = view.part == nullptr ? static_cast<std::int64_t>(view.mesh.n_triangles())
+                                      : static_cast<std::int64_t>(view.part->triangles.size());
+  return parallel::collect<Index>(
+      exec, n, kScanGrain, [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
+        for (std::int64_t i = begin; i < end; ++i) {
+          const Index tri = view.part == nullptr
+                                ? static_cast<Index>(i)
+                                : view.part->triangles[static_cast<std::size_t>(i)];
+          if (is_bad(view.mesh, tri, target) && view.has_free_corner(tri)) found.push_back(tri);
+        }
+      });
+}
 
 // A triangle with the vertices around it: the first n_free may move, the others are their border.
 struct Surroundings {
@@ -331,7 +334,7 @@ class Polisher {
     const std::size_t n_triangles =
         part_ == nullptr ? mesh_.triangles.size() : part_->triangles.size();
     const std::size_t n_vertices = mesh_.vertices.size();
-    bad_ = find_bad(context_.exec, mesh_, part_, options_.target_quality);
+    bad_ = find_bad(context_.exec, view_, options_.target_quality);
     const Aim aim = choose_aim(view_, options_, bad_);
     context_.monitor.advance(static_cast<std::int64_t>(n_triangles - bad_.size()));
     mend_all(aim);

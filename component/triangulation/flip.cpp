@@ -75,7 +75,8 @@ void flip(Mesh& mesh, Index tri, int side) {
 
 bool can_flip(const Mesh& mesh, Index tri, int side) {
   const Quadrilateral q = quadrilateral(mesh, tri, side);
-  return is_positive(mesh, q.o, q.u, q.p) && is_positive(mesh, q.p, q.v, q.o);
+  return !mesh.fixed.has_edge(q.u, q.v) && is_positive(mesh, q.o, q.u, q.p) &&
+         is_positive(mesh, q.p, q.v, q.o);
 }
 
 bool is_illegal(const Mesh& mesh, const Ellipsoid& surface, Index tri, int side) {

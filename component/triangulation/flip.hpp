@@ -29,7 +29,8 @@ Index opposite_vertex(const Mesh& mesh, Index tri, int side);
 /// triangles keep their ids; corner 0 of both is an end of the new diagonal.
 void flip(Mesh& mesh, Index tri, int side);
 
-/// Whether both triangles after the flip are counter-clockwise seen from outside.
+/// Whether both triangles after the flip are counter-clockwise seen from outside and the side is no
+/// fixed edge.
 bool can_flip(const Mesh& mesh, Index tri, int side);
 
 /// Whether the side breaks the Delaunay property: by predicates::in_circle with the vertex id as

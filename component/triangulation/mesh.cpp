@@ -1,11 +1,19 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "triangulation/mesh.hpp"
 
+#include <algorithm>
 #include <array>
 
 #include "core/hash.hpp"
 
 namespace delos {
+
+bool FixedEdges::has_edge(Index a, Index b) const {
+  if (!has_vertex(a) || !has_vertex(b)) return false;
+  const auto begin = ends.begin() + offsets[static_cast<std::size_t>(a)];
+  const auto end = ends.begin() + offsets[static_cast<std::size_t>(a) + 1];
+  return std::find(begin, end, b) != end;  // two, but for the few where lines meet
+}
 
 std::vector<Index> triangle_at_vertex(const Mesh& mesh) {
   std::vector<Index> at(mesh.vertices.size(), kNone);

@@ -27,9 +27,22 @@ struct Triangle {
       neighbour;  ///< triangle across each side; kNone only while under construction
 };
 
+/// The first vertices of a mesh, when they must stay where they are, and edges between them that no
+/// flip may take away. Empty for most meshes.
+struct FixedEdges {
+  std::vector<Index> offsets;  ///< [n_vertices() + 1], or empty
+  std::vector<Index> ends;     ///< the other ends of the edges at each vertex, ascending
+
+  Index n_vertices() const { return offsets.empty() ? 0 : static_cast<Index>(offsets.size()) - 1; }
+  std::int64_t n_edges() const { return static_cast<std::int64_t>(ends.size() / 2); }
+  bool has_vertex(Index vertex) const { return vertex < n_vertices(); }
+  bool has_edge(Index a, Index b) const;
+};
+
 struct Mesh {
   Array<Vertex> vertices;
   Array<Triangle> triangles;  ///< 2 n_vertices - 4 of them when closed
+  FixedEdges fixed;
 
   Index n_vertices() const { return static_cast<Index>(vertices.size()); }
   Index n_triangles() const { return static_cast<Index>(triangles.size()); }

@@ -71,7 +71,7 @@ TEST_CASE("the skeleton is a sound Delaunay mesh that holds every side as edges"
   Context context{exec, monitor};
   const SpacingField spacing = SpacingField::constant(kEarth, 120e3);
   const Tiling tiling = make_tiles(exec, kEarth, spacing, 600.0, kNoLimit);
-  const Skeleton skeleton = make_skeleton(context, kEarth, spacing, tiling);
+  const Skeleton skeleton = make_skeleton(context, kEarth, spacing, {tiling, {}});
   CHECK(summary(validate(skeleton.mesh, kEarth)) == "");
   // Every half-segment lies on the border of exactly one tile, every triangle in exactly one tile.
   std::vector<int> n_borders(2 * skeleton.segments.size(), 0);
