@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "refine/room.hpp"
+
 namespace delos {
 namespace {
 
@@ -23,8 +25,8 @@ struct Assembler::Place {
 Assembler::Assembler(parallel::Executor& exec, const Skeleton& skeleton, double expected_vertices)
     : exec_(exec), skeleton_(skeleton), at_half_(2 * skeleton.segments.size()) {
   const auto room = static_cast<std::size_t>(kRoom * expected_vertices);
-  out_.mesh.vertices.reserve(room);
-  out_.mesh.triangles.reserve(2 * room);
+  reserve_pages(out_.mesh.vertices, room);
+  reserve_pages(out_.mesh.triangles, 2 * room);
   out_.mesh.vertices = skeleton.mesh.vertices;
 }
 

@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "refine/room.hpp"
 #include "refine/work_mesh.hpp"
 
 namespace delos {
@@ -103,6 +104,13 @@ struct FrontWorkspace::Impl {
 FrontWorkspace::FrontWorkspace() : impl_(std::make_unique<Impl>()) {}
 FrontWorkspace::~FrontWorkspace() = default;
 FrontWorkspace::FrontWorkspace(FrontWorkspace&&) noexcept = default;
+
+void FrontWorkspace::reserve(double expected_vertices) {
+  constexpr double kRoom = 1.05;  // tiles are within a few percent of what they expect
+  const auto room = static_cast<std::size_t>(kRoom * expected_vertices);
+  reserve_pages(impl_->mesh.vertices, room);
+  reserve_pages(impl_->mesh.triangles, 2 * room);
+}
 
 namespace {
 

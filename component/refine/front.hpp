@@ -32,6 +32,8 @@ class FrontWorkspace {
   FrontWorkspace();
   ~FrontWorkspace();
   FrontWorkspace(FrontWorkspace&&) noexcept;
+  /// Room for tiles of so many vertices, so that no array grows by copies.
+  void reserve(double expected_vertices);
   struct Impl;
   Impl& impl() { return *impl_; }
 

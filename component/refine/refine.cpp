@@ -32,10 +32,12 @@ void check_options(const RefineOptions& options) {
 }
 
 // Tiles of one batch: enough for every thread to have its share at any moment, few enough to be a
-// small part of the mesh. The result does not depend on it.
+// small part of the mesh. One thread needs none to choose from, and what it has just made is in its
+// cache. The result does not depend on it.
 std::size_t batch_tiles(const parallel::Executor& exec) {
   constexpr std::size_t kTilesPerThread = 24;
-  return kTilesPerThread * static_cast<std::size_t>(exec.n_threads());
+  const auto n_threads = static_cast<std::size_t>(exec.n_threads());
+  return n_threads == 1 ? 1 : kTilesPerThread * n_threads;
 }
 
 std::vector<TileMesh> refine_batch(Context& context, const FrontInput& input, std::size_t first,
@@ -60,8 +62,12 @@ std::vector<TileMesh> refine_batch(Context& context, const FrontInput& input, st
   return tiles;
 }
 
-Assembly refine_tiles(Context& context, const FrontInput& input, Assembler assembler) {
+Assembly refine_tiles(Context& context, const FrontInput& input, const Tiling& tiling) {
+  Assembler assembler(context.exec, input.skeleton, tiling.expected_vertices);
   std::vector<FrontWorkspace> scratch(static_cast<std::size_t>(context.exec.n_threads()));
+  double most = 0.0;
+  for (const Tile& tile : tiling.tiles) most = std::max(most, tile.expected_vertices);
+  for (FrontWorkspace& workspace : scratch) workspace.reserve(most);
   const std::size_t n_tiles = input.skeleton.tile_triangles.size();
   for (std::size_t first = 0; first < n_tiles;) {
     const std::vector<TileMesh> tiles = refine_batch(context, input, first, scratch);
@@ -99,8 +105,8 @@ Mesh refine(Context& context, const Ellipsoid& surface, const SpacingField& spac
   context.monitor.advance(report.n_skeleton_vertices);
 
   const std::vector<Index> half_segment = half_segment_of_sides(skeleton);
-  Assembly assembly = refine_tiles(context, {surface, spacing, options, skeleton, half_segment},
-                                   Assembler(context.exec, skeleton, tiling.expected_vertices));
+  Assembly assembly =
+      refine_tiles(context, {surface, spacing, options, skeleton, half_segment}, tiling);
   Mesh& mesh = assembly.mesh;
   mesh.fixed = skeleton.mesh.fixed;
   // On the sphere only the tiles' sides may be non-Delaunay; on an ellipsoid the hull predicate

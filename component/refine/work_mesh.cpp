@@ -34,31 +34,40 @@ bool WorkMesh::conflicts_exactly(const WorkTriangle& tri, const Vec3& p) const {
 }
 
 bool WorkMesh::find_cavity(Index seed, const Vec3& p, Cavity& cavity) const {
-  cavity.triangles.assign(1, seed);
-  cavity.start.clear();
-  cavity.link.clear();
+  constexpr std::size_t kUsualRoom = 64;  // cavities of more than ten triangles are rare
+  if (cavity.room() < kUsualRoom) cavity.make_room(kUsualRoom);
+  // n triangles have n + 2 sides between them that are on the border or still on the stack.
+  std::size_t n = 1, n_border = 0, depth = 3;
+  Index* stack = cavity.stack.data();
+  cavity.triangles[0] = seed;
   // Depth-first over sides in cyclic order: what is popped is the border, counter-clockwise.
-  stack_.assign({4 * seed + 1, 4 * seed + 0, 4 * seed + 2});
-  while (!stack_.empty()) {
-    const Index code = stack_.back();
-    stack_.pop_back();
+  stack[0] = 4 * seed + 1;
+  stack[1] = 4 * seed + 0;
+  stack[2] = 4 * seed + 2;
+  while (depth > 0) {
+    const Index code = stack[--depth];
     const WorkTriangle& inner = at(triangle_of(code));
     const Index link = inner.link[side_of(code)];
     if (link >= 0 && conflicts(at(triangle_of(link)), p)) {
+      if (n + 4 > cavity.room()) {
+        cavity.make_room(2 * cavity.room());
+        stack = cavity.stack.data();
+      }
       const Index base = 4 * triangle_of(link);
       const int entry = static_cast<int>(side_of(link));
-      cavity.triangles.push_back(triangle_of(link));
-      stack_.push_back(base + previous_corner(entry));
-      stack_.push_back(base + next_corner(entry));
+      cavity.triangles[n++] = triangle_of(link);
+      stack[depth++] = base + previous_corner(entry);
+      stack[depth++] = base + next_corner(entry);
     } else {
-      cavity.start.push_back(
-          inner.vertex[static_cast<std::size_t>(next_corner(static_cast<int>(side_of(code))))]);
-      cavity.link.push_back(link);
+      cavity.start[n_border] =
+          inner.vertex[static_cast<std::size_t>(next_corner(static_cast<int>(side_of(code))))];
+      cavity.link[n_border++] = link;
     }
   }
-  cavity.start.push_back(cavity.start.front());
-  return cavity.size() == cavity.triangles.size() + 2 &&
-         (star_surface == nullptr || is_star(p, cavity));
+  cavity.start[n_border] = cavity.start[0];
+  cavity.n_triangles = n;
+  cavity.n_border = n_border;
+  return n_border == n + 2 && (star_surface == nullptr || is_star(p, cavity));
 }
 
 bool WorkMesh::is_star(const Vec3& p, const Cavity& cavity) const {
@@ -74,7 +83,7 @@ bool WorkMesh::is_star(const Vec3& p, const Cavity& cavity) const {
 void WorkMesh::fill_cavity(Cavity& cavity, Index new_vertex) {
   const std::size_t n = cavity.size();
   for (int extra = 0; extra < 2; ++extra) {
-    cavity.triangles.push_back(static_cast<Index>(triangles.size()));
+    cavity.triangles[cavity.n_triangles++] = static_cast<Index>(triangles.size());
     triangles.push_back({});
   }
   for (std::size_t i = 0; i < n; ++i) {

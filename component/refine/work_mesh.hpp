@@ -49,18 +49,27 @@ inline constexpr Index triangle_of(Index link) { return link >> 2; }
 inline constexpr std::size_t side_of(Index link) { return static_cast<std::size_t>(link & 3); }
 
 /// The cavity that a new vertex makes, or the star that fills it: border edge i runs from
-/// start[i] to start[i + 1] (start[n] = start[0]) and has link[i] behind it.
+/// start[i] to start[i + 1] (start[n] = start[0]) and has link[i] behind it. The arrays are as long
+/// as the largest cavity so far asked for: they are written by index, without a test at each end.
 struct Cavity {
   std::vector<Index> triangles;
   std::vector<Index> start;
   std::vector<Index> link;
-  std::size_t size() const { return link.size(); }
+  std::vector<Index> stack;  ///< sides still to be looked at
+  std::size_t n_triangles = 0;
+  std::size_t n_border = 0;
+
+  std::size_t size() const { return n_border; }
+  std::size_t room() const { return link.size(); }
+  void make_room(std::size_t n) {
+    for (std::vector<Index>* part : {&triangles, &start, &link, &stack}) part->resize(n);
+  }
 };
 
 class WorkMesh {
  public:
   Array<Vertex> vertices;
-  std::vector<WorkTriangle> triangles;
+  Array<WorkTriangle> triangles;
   /// Set: circumcircles are judged by surface Delaunay balls on this surface, else by planes.
   const Ellipsoid* ball_surface = nullptr;
   /// Set: cavities on this surface are looked at whether their point sees all of their border. On
@@ -103,7 +112,6 @@ class WorkMesh {
   /// Whether every triangle of the star that p would have is counter-clockwise seen from outside;
   /// with planes in a convex tile convexity sees to that.
   bool is_star(const Vec3& p, const Cavity& cavity) const;
-  mutable std::vector<Index> stack_;
 };
 
 }  // namespace delos
