@@ -31,9 +31,10 @@ std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Grid closed_grid(Context& context, const std::string& path) {
   GridFile file = read_grid_file(context, path);
-  DELOS_CHECK(file.mesh, ErrorKind::input, path,
-              ": the grid has a border, but transfer needs grids that close over the surface. Remap "
-              "between the grids before they are culled.");
+  DELOS_CHECK(
+      file.mesh, ErrorKind::input, path,
+      ": the grid has a border, but transfer needs grids that close over the surface. Remap "
+      "between the grids before they are culled.");
   if (file.grid) return std::move(*file.grid);
   return build_grid(context, file.surface, file.latitude, *file.mesh);
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "remap/tiling.hpp"
 
+#include "core/error.hpp"
+
 namespace delos::remap {
 namespace {
 
@@ -8,9 +10,16 @@ constexpr std::int64_t kTriangleGrain = 4096;  // about 0.1 ms
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
+void check_closed(const Grid& grid) {
+  DELOS_CHECK(is_closed(grid), ErrorKind::input, "a grid of ", grid.n_cells(),
+              " cells has a border, but transfer needs grids that cover the surface: carry fields "
+              "between the grids before they are culled.");
+}
+
 }  // namespace
 
 Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
+  check_closed(grid);
   Tiling tiling;
   tiling.grid_ = &grid;
   tiling.corner_position_ = grid.vertex_position;
@@ -34,6 +43,7 @@ Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
 }
 
 Tiling Tiling::triangles(parallel::Executor& exec, const Grid& grid) {
+  check_closed(grid);
   Tiling tiling;
   tiling.grid_ = &grid;
   tiling.of_cells_ = false;

@@ -14,6 +14,7 @@ namespace delos::remap {
 /// neighbour k is across it. A view: the grid must outlive it.
 class Tiling {
  public:
+  /// Error(input) for a grid with a border.
   static Tiling cells(parallel::Executor& exec, const Grid& grid);
   static Tiling triangles(parallel::Executor& exec, const Grid& grid);
 

@@ -116,3 +116,14 @@ TEST_CASE("grids of different surfaces are refused") {
   const Grid b = samples::grid_of(other, samples::tetrahedron(other));
   CHECK_THROWS_AS(samples::overlaps_of(a, b), Error);
 }
+
+TEST_CASE("a grid with a border is refused") {
+  parallel::Executor exec(1);
+  const Ellipsoid sphere = Ellipsoid::sphere(10.0);
+  Grid grid = samples::grid_of(sphere, samples::tetrahedron(sphere));
+  grid.cells_on_edge[2][1] = kNone;
+  for (const auto tiling : {&remap::Tiling::cells, &remap::Tiling::triangles}) {
+    delos::testing::expect_error(ErrorKind::input, {"a grid of 4 cells has a border"},
+                                 [&] { tiling(exec, grid); });
+  }
+}

@@ -50,7 +50,7 @@ typedef struct delos_transfer_options {
 
 /* With the context's threads as they are now; its progress and delos_context_cancel serve this
  * call. The grids may be other contexts', and may be destroyed afterwards: the transfer keeps their
- * arrays. DELOS_ERROR_INPUT when they lie on different surfaces. */
+ * arrays. DELOS_ERROR_INPUT when they lie on different surfaces or one has a border. */
 DELOS_C_API int delos_transfer_create(delos_context* context, const delos_grid* from,
                                       const delos_grid* to, delos_transfer** transfer);
 /* Frees it but for a small shell. NULL is allowed. */

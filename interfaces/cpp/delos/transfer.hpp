@@ -51,7 +51,8 @@ enum class VelocityRoute {
 class DELOS_API Transfer {
  public:
   /// Of the options `log` is not used, and `progress` and `cancel` in the constructor only.
-  /// Error(input) when the grids lie on different surfaces, Error(cancelled).
+  /// Error(input) when the grids lie on different surfaces or one of them has a border (it was
+  /// culled), Error(cancelled).
   Transfer(const Grid& from, const Grid& to, const GenerateOptions& options = {});
   Transfer(const Transfer& other);
   Transfer(Transfer&& other) noexcept;
