@@ -115,7 +115,10 @@ struct delos_cap {
   std::unique_ptr<delos::cap::Team> team;
   std::optional<Mesh> mesh;
   std::vector<std::string> imported;  // since the last advance
-  std::int64_t generation = 0;        // of the mesh
+  std::int64_t generation = 0;        // of the component's grid
+  // On the process that has the grid: that of the mesh, and after a remesh the way from it.
+  std::optional<delos::Grid> mesh_grid;
+  std::optional<delos::Transfer> from_mesh;
   std::string message;
 
   delos::Component& live() {
@@ -170,16 +173,42 @@ void list_items(delos_cap& cap) {
   }
 }
 
+/// Means, as the statistics of a remesh are carried.
+constexpr delos::TransferOptions kMeans = {.order = delos::TransferOrder::first,
+                                           .limiter = delos::TransferLimiter::none};
+
+/// Values of the mesh's cells on those of the component's grid.
+std::vector<double> on_grid(const delos_cap& cap, std::vector<double> on_mesh) {
+  if (!cap.from_mesh) return on_mesh;
+  std::vector<double> out(static_cast<std::size_t>(cap.from_mesh->to().n_cells()));
+  cap.from_mesh->apply(on_mesh, out, kMeans);
+  return out;
+}
+
 /// On the process that has the grid.
 void advance(delos_cap& cap, const delos::Time& from, const delos::Time& until) {
   delos::Component& component = *cap.component;
   for (const std::string& name : cap.imported) component.import_state().field(name).stamp(from);
   component.run(component.import_state(), component.export_state(),
                 delos::Clock({.start = from, .step = until - from}));
-  if (component.generation() != cap.generation) {
-    refuse("the grid was made anew (generation " + std::to_string(component.generation()) +
-           "), which fields on an ESMF mesh can't follow: switch remeshing off");
-  }
+}
+
+/// After a remesh. ESMF's mesh stays, as fields on it have its size: the spacing on it becomes the
+/// mean of the new grid's, imports will be carried to that.
+void follow_grid(delos_cap& cap) {
+  const auto now =
+      static_cast<std::int64_t>(cap.team->shared(static_cast<double>(cap.component->generation())));
+  if (now == cap.generation) return;
+  std::vector<double> spacing_m;
+  cap.team->together([&] {
+    if (!cap.team->is_first()) return;
+    const delos::Grid grid = cap.component->grid();
+    cap.from_mesh.emplace(*cap.mesh_grid, grid);
+    spacing_m.resize(static_cast<std::size_t>(cap.mesh_grid->n_cells()));
+    delos::Transfer(grid, *cap.mesh_grid).apply(grid.cell_spacing_m(), spacing_m, kMeans);
+  });
+  cap.mesh->spacing_m = cap.team->scatter(spacing_m);
+  cap.generation = now;
 }
 
 }  // namespace
@@ -232,8 +261,9 @@ int delos_cap_realize(delos_cap* cap, int communicator, int n_processes) {
     double unit_m2 = 0.0;
     const delos::LocalGrid grid = team->spread([&] {
       component.initialize(delos::InitializePhase::realize);
-      unit_m2 = unit_area_m2(component.grid());
-      return component.grid();
+      cap->mesh_grid = component.grid();
+      unit_m2 = unit_area_m2(*cap->mesh_grid);
+      return *cap->mesh_grid;
     });
     const double generation = team->shared(static_cast<double>(component.generation()));
     unit_m2 = team->shared(unit_m2);
@@ -293,7 +323,8 @@ int delos_cap_set_import(delos_cap* cap, const char* name, const double* values,
     });
     const auto whole = cap->team->gather({values, static_cast<std::size_t>(n_values)});
     cap->team->together([&] {
-      if (cap->team->is_first()) cap->live().import_state().field(name).store(whole);
+      if (!cap->team->is_first()) return;
+      cap->live().import_state().field(name).store(on_grid(*cap, whole));
     });
     cap->imported.emplace_back(name);
     return delos::kEsmfSuccess;
@@ -309,6 +340,7 @@ int delos_cap_advance(delos_cap* cap, const delos_cap_time* from, const delos_ca
       if (cap->team->is_first()) advance(*cap, time_of(*from, calendar), time_of(*until, calendar));
     });
     cap->imported.clear();
+    follow_grid(*cap);
     return delos::kEsmfSuccess;
   });
 }
@@ -319,6 +351,8 @@ int delos_cap_finalize(delos_cap* cap) {
   return guarded(cap, [&] {
     cap->live().finalize();
     cap->mesh.reset();
+    cap->mesh_grid.reset();
+    cap->from_mesh.reset();
     cap->team.reset();
     cap->generation = 0;
     cap->imported.clear();

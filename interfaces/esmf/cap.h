@@ -61,7 +61,9 @@ int delos_cap_get_mesh(delos_cap* cap, delos_cap_mesh* mesh);
 int delos_cap_get_export(delos_cap* cap, const char* name, double* values, int64_t n_values);
 /* The process's values of an import, [n_elements]; copied. */
 int delos_cap_set_import(delos_cap* cap, const char* name, const double* values, int64_t n_values);
-/* From one time to a later one; `calendar` is 0 gregorian, 1 julian, 2 noleap, 3 360_day. */
+/* The mesh stays when the grid is made anew here: cell_spacing becomes the mean of the new grid's
+ * over each element, grid_generation its number, and imports are carried to it conservatively.
+ * From one time to a later one; `calendar` is 0 gregorian, 1 julian, 2 noleap, 3 360_day. */
 int delos_cap_advance(delos_cap* cap, const delos_cap_time* from, const delos_cap_time* until,
                       int calendar);
 /* Of the grid, on every process; 0 without one. */

@@ -23,6 +23,8 @@ class Team {
   /// Values of each one's own cells: of the whole grid by id on the first process, nothing
   /// elsewhere.
   virtual std::vector<double> gather(std::span<const double> own) = 0;
+  /// And back; `whole` is looked at on the first process.
+  virtual std::vector<double> scatter(std::span<const double> whole) = 0;
   /// body() on every process; what one of them throws is thrown by all.
   virtual void together(const std::function<void()>& body) = 0;
 };

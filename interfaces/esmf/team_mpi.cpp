@@ -58,6 +58,12 @@ class Processes : public Team {
     return grid_->gather(own, Location::cell);
   }
 
+  std::vector<double> scatter(std::span<const double> whole) override {
+    std::vector<double> out = grid_->scatter(whole, Location::cell);
+    out.resize(static_cast<std::size_t>(grid_->local().n_owned(Location::cell)));
+    return out;
+  }
+
   void together(const std::function<void()>& body) override {
     const auto failure = failure_of(body);
     int who = failure ? rank_ : size_;

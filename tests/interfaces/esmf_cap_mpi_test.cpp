@@ -2,7 +2,7 @@
 // A driver without ESMF on many processes: the NUOPC cap's phases in NUOPC's order. Each process
 // holds its part against the whole grid, which the host makes for itself; the parts are counted
 // together.
-//   mpiexec -n N cap_host CONFIG
+//   mpiexec -n N cap_host CONFIG REMESHING_CONFIG
 #include <cap.h>
 #include <mpi.h>
 
@@ -146,6 +146,51 @@ void run(Host& host, const char* config) {
   delos_cap_destroy(host.cap);
 }
 
+std::vector<double> exported(Host& host, const delos_cap_mesh& mesh, const char* name) {
+  std::vector<double> values(static_cast<std::size_t>(mesh.n_elements));
+  host.expect(delos_cap_get_export(host.cap, name, values.data(), mesh.n_elements) == 0, name);
+  return values;
+}
+
+/// Energy in the north: at the second day's end the grid is made anew, the mesh is not. The same
+/// energy, on the mesh still, then asks for no other grid.
+void run_remesh(Host& host, const char* config) {
+  host.expect(delos_cap_create(config, &host.cap) == 0 && delos_cap_advertise(host.cap) == 0 &&
+                  delos_cap_realize(host.cap, MPI_Comm_c2f(MPI_COMM_WORLD), host.size) == 0,
+              "the mesh is made");
+  delos_cap_mesh mesh = {};
+  host.expect(delos_cap_get_mesh(host.cap, &mesh) == 0, "there is a mesh");
+  if (host.n_wrong != 0) return;
+  const std::vector<double> area = exported(host, mesh, "cell_area");
+  const std::vector<double> before = exported(host, mesh, "cell_spacing");
+  std::vector<double> energy;
+  for (int i = 0; i < mesh.n_elements; ++i) {
+    energy.push_back(mesh.element_lon_lat_deg[2 * i + 1] > 0.0 ? 0.2 : 0.0);
+  }
+  for (int day = 1; day <= 4; ++day) {
+    const delos_cap_time from = {2001, 1, day, 0, 0, 0, 0, 1};
+    const delos_cap_time until = {2001, 1, day + 1, 0, 0, 0, 0, 1};
+    host.expect(delos_cap_set_import(host.cap, kEnergy, energy.data(), mesh.n_elements) == 0 &&
+                    delos_cap_advance(host.cap, &from, &until, 0) == 0,
+                "a day goes by");
+    host.expect(delos_cap_generation(host.cap) == (day < 2 ? 1 : 2), "a grid at the alarm");
+  }
+  host.expect(exported(host, mesh, "grid_generation").front() == 2.0, "the generation is told");
+  host.expect(exported(host, mesh, "cell_area") == area, "the mesh stays");
+  const std::vector<double> after = exported(host, mesh, "cell_spacing");
+  bool is_finer_in_the_north = true, is_as_before_in_the_south = true;
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    const double lat_deg = mesh.element_lon_lat_deg[2 * i + 1];
+    if (lat_deg > 45.0) is_finer_in_the_north = is_finer_in_the_north && after[i] < 0.7 * before[i];
+    if (lat_deg < -60.0) {
+      is_as_before_in_the_south = is_as_before_in_the_south && after[i] > 0.95 * before[i];
+    }
+  }
+  host.expect(is_finer_in_the_north && is_as_before_in_the_south, "the spacing follows");
+  host.expect(delos_cap_finalize(host.cap) == 0, "the cap ends");
+  delos_cap_destroy(host.cap);
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -154,11 +199,12 @@ int main(int argc, char** argv) {
   MPI_Comm_rank(MPI_COMM_WORLD, &host.rank);
   MPI_Comm_size(MPI_COMM_WORLD, &host.size);
   try {
-    if (argc == 2) run(host, argv[1]);
+    if (argc == 3) run(host, argv[1]);
+    if (argc == 3) run_remesh(host, argv[2]);
   } catch (const std::exception& error) {
     host.expect(false, error.what());
   }
   MPI_Allreduce(MPI_IN_PLACE, &host.n_wrong, 1, MPI_INT, MPI_SUM, MPI_COMM_WORLD);
   MPI_Finalize();
-  return host.n_wrong == 0 && argc == 2 ? 0 : 1;
+  return host.n_wrong == 0 && argc == 3 ? 0 : 1;
 }
