@@ -9,13 +9,13 @@
 
 #include "dual/validate.hpp"
 #include "io/mpas.hpp"
-#include "lifecycle/component.hpp"
 #include "lifecycle/config_file.hpp"
 #include "lifecycle/grid_file.hpp"
 #include "lifecycle/restart.hpp"
 #include "metrics/open_mesh.hpp"
 #include "support/expect_error.hpp"
 #include "support/products.hpp"
+#include "support/sample_times.hpp"
 #include "support/temporary_folder.hpp"
 
 using namespace delos;
@@ -151,9 +151,9 @@ TEST_CASE("a culled grid comes back from a restart file with the same bits") {
   Monitor monitor;
   Context context{exec, monitor};
   const auto product = std::make_shared<const Product>(generate(context, settings, {}));
-  const Clock clock({.start = Time(Calendar::noleap, ExactSeconds(0)),
-                     .stop = Time(Calendar::noleap, ExactSeconds(100)),
-                     .step = TimeInterval(ExactSeconds(10))});
+  const Clock clock({.start = samples::at("2000-01-01", Calendar::noleap),
+                     .stop = samples::at("2000-02-01", Calendar::noleap),
+                     .step = samples::lasting("P1D")});
   write_restart(folder.file("r.nc"), {product, 1, clock, std::nullopt, std::nullopt}, nullptr);
   const Restart back = read_restart(context, settings, folder.file("r.nc"));
   CHECK(digest(*back.product->grid) == digest(*product->grid));

@@ -75,6 +75,28 @@ TEST_CASE("every span has the documented length and ids in range") {
   }
 }
 
+TEST_CASE("a culled grid has -1 where its neighbours are gone, and names no element it lacks") {
+  const delos::Grid grid = delos::generate(
+      delos::Config::from_text(std::string(kSmall) + "data_path: []\ndomain: {}\n"));
+  const delos::Grid whole = small_grid();
+  CHECK(grid.n_cells() < whole.n_cells());
+  const auto cells = grid.cells_on_edge();
+  std::int64_t n_border = 0;
+  for (std::size_t edge = 0; 2 * edge < cells.size(); ++edge) {
+    CHECK(cells[2 * edge] >= 0);
+    n_border += cells[2 * edge + 1] == -1;
+  }
+  CHECK(n_border > 50);
+  CHECK(grid.cell_offsets().back() == 2 * grid.n_edges() - n_border);
+  CHECK(std::count(grid.cells_on_cell().begin(), grid.cells_on_cell().end(), -1) == n_border);
+  const auto& certificate = grid.certificate();
+  for (const auto& worst : {certificate.dual_ratio_min, certificate.stagger_max}) {
+    CHECK(worst.id >= -1);
+    CHECK(worst.id < grid.n_edges());
+  }
+  CHECK(certificate.angle_max_deg.id < grid.n_vertices());
+}
+
 TEST_CASE("the certificate names elements of the grid's own arrays") {
   const delos::Grid grid = small_grid();
   const delos::Certificate& certificate = grid.certificate();

@@ -31,7 +31,8 @@ struct Quality {
 /// The worst element of one measure.
 struct Worst {
   double value;
-  std::int64_t id;                    ///< from 0, into the arrays of Grid: a vertex or an edge
+  /// From 0, into the arrays of Grid: a vertex or an edge. -1 where a culled grid lacks it.
+  std::int64_t id;
   std::array<std::int64_t, 2> cells;  ///< of the edge, from 0; -1 for a vertex
   double lon_rad, lat_rad;            ///< [0, 2 pi), of the configured kind
 };
@@ -96,7 +97,10 @@ class DELOS_API Grid {
   std::span<const double> vertex_lon_lat() const;
 
   // --- tables around a cell are ragged: those of cell i are values [offsets[i], offsets[i + 1])
-  //     and entry j of each belongs to edge j, which joins vertex j - 1 to vertex j
+  //     and entry j of each belongs to edge j, which joins vertex j - 1 to vertex j.
+  //     With a section `domain` the grid has a border: -1 stands in cells_on_cell, in
+  //     cells_on_edge[1] (the normal points out), cells_on_vertex and edges_on_vertex where there
+  //     is nothing, a kite there is 0, and the ragged tables are shorter than 2 n_edges
   std::span<const std::int64_t> cell_offsets() const;      ///< [n_cells + 1]
   std::span<const std::int32_t> edges_on_cell() const;     ///< [2 n_edges]
   std::span<const std::int32_t> vertices_on_cell() const;  ///< [2 n_edges]
