@@ -82,6 +82,25 @@ std::vector<Index> short_way(const Grid& grid, std::pair<Index, Index> ends, std
   return way;
 }
 
+// For a chain that is shut from end to end: the way between open cells next to its ends, or the
+// chain itself.
+std::vector<Index> beside(const Grid& grid, const std::vector<Index>& chain,
+                          const std::function<bool(Index)>& is_open) {
+  const auto open_beside = [&](Index cell) {
+    const auto row = grid.cells_on_cell.row(cell);
+    const auto found = std::find_if(row.begin(), row.end(), is_open);
+    return found == row.end() ? kNone : *found;
+  };
+  const Index from = open_beside(chain.front()), to = open_beside(chain.back());
+  if (from == kNone || to == kNone) return chain;
+  std::vector<Index> out{from};
+  if (from == to) return out;
+  const std::vector<Index> way = short_way(grid, {from, to}, 2 * chain.size() + 4, is_open);
+  out.insert(out.end(), way.begin(), way.end());
+  out.push_back(to);
+  return out;
+}
+
 }  // namespace
 
 Index cell_at(const Grid& grid, const Vec3& point) {
@@ -126,7 +145,7 @@ std::vector<Index> led_around(const Grid& grid, const std::vector<Index>& chain,
   const auto is_shut = [&](Index cell) { return shut[at(cell)] != 0; };
   const auto is_open = [&](Index cell) { return !is_shut(cell) && sea[at(cell)] != 0; };
   const auto first = std::find_if_not(chain.begin(), chain.end(), is_shut);
-  if (first == chain.end()) return chain;
+  if (first == chain.end()) return beside(grid, chain, is_open);
   std::vector<Index> out;
   for (auto cell = first; cell != chain.end();) {
     if (!is_shut(*cell)) {

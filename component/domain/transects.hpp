@@ -21,7 +21,8 @@ std::vector<Index> cells_along(const Grid& grid, const LonLatLine& line);
 
 /// The chain led around the cells of `shut`, where a few cells of `sea` go around them: at most
 /// four more than twice those that are in the way. Elsewhere it goes through. Where it begins or
-/// ends in shut cells it becomes shorter.
+/// ends in shut cells it becomes shorter;
+/// one that is shut from end to end runs beside them.
 std::vector<Index> led_around(const Grid& grid, const std::vector<Index>& chain, const Mask& shut,
                               const Mask& sea);
 

@@ -134,7 +134,7 @@ UgridOptions ugrid_options(Context& context, const OutputContent& content) {
   return {format_of(content), content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
 }
 
-/// FESOM2 takes the wet part, without points of no triangle.
+/// Of a culled grid the wet part, without points of no triangle, as FESOM2 wants it.
 TriangleSet wet_triangles(const OutputContent& content) {
   const Settings& settings = content.settings;
   if (content.domain == nullptr) {
@@ -312,7 +312,7 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
   const netcdf::Format format = format_of(content);
   const Mesh part = content.domain != nullptr ? triangles_of(*content.grid) : Mesh();
   const Mesh& mesh = content.domain != nullptr ? part : content.mesh;
-  const auto triangles = [&] { return triangle_set(settings.surface, settings.latitude, mesh); };
+  const auto triangles = [&] { return wet_triangles(content); };
   switch (kind) {
     case FileKind::mpas:
       write_mpas_file(context, content, path);
@@ -337,7 +337,7 @@ void write_grid_file(Context& context, const OutputContent& content, FileKind ki
     case FileKind::jigsaw:
       return write_jigsaw(path, triangles());
     case FileKind::fesom:
-      return write_fesom(path, wet_triangles(content));
+      return write_fesom(path, triangles());
   }
 }
 
