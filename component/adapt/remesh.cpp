@@ -275,10 +275,16 @@ RemeshPlan plan_remesh(Context& context, const RemeshInput& input, const RemeshO
   const double share = static_cast<double>(plan.region.n_removed) / mesh.n_vertices();
   const bool has_fixed = std::any_of(input.is_fixed.begin(), input.is_fixed.end(),
                                      [](char fixed) { return fixed != 0; });
-  const bool is_full = share > options.full_share && !has_fixed;
+  const bool has_lines = !options.refine.lines.empty();
+  DELOS_CHECK(!has_lines || !has_fixed, ErrorKind::config,
+              "a grid that keeps lines is made anew as a whole, so no cells can be fixed. Take the "
+              "lines or the fixed regions out.");
+  const bool is_full = has_lines || (share > options.full_share && !has_fixed);
   plan.kind = is_full ? RemeshKind::full : RemeshKind::local;
   plan.reason = text("the spacing is off around ", share, " of the vertices",
-                     is_full ? ": making everything anew costs less" : "");
+                     has_lines ? ": with lines to keep everything is made anew"
+                     : is_full ? ": making everything anew costs less"
+                               : "");
   return plan;
 }
 

@@ -66,7 +66,8 @@ struct Remeshed {
   std::vector<Index> new_id;
 };
 
-/// Decides what of the mesh changes. An `is_fixed` that is not empty excludes a full rebuild.
+/// Decides what of the mesh changes. An `is_fixed` that is not empty excludes a full rebuild;
+/// lines to keep (options.refine.lines) ask for one, Error(config) with both.
 RemeshPlan plan_remesh(Context& context, const RemeshInput& input, const RemeshOptions& options);
 
 /// Does it. The spacing may by now be another than the one of the plan, as long as the two agree

@@ -236,6 +236,12 @@ void add_lines(const Json& feature, const std::string& where, std::vector<LonLat
   for (const Json& part : parts) add_line(part, where, name_of(feature), lines);
 }
 
+const Json& geometry_of(const Json& feature, const std::string& where) {
+  DELOS_CHECK(feature.is_object() && feature.contains("geometry"), ErrorKind::input, where,
+              ": has no \"geometry\". Repair it.");
+  return feature["geometry"];
+}
+
 }  // namespace
 
 PolygonSet read_polygons(const std::string& path, const std::string& feature_name) {
@@ -250,9 +256,7 @@ PolygonSet read_polygons(const std::string& path, const std::string& feature_nam
     if (!feature_name.empty() && name != feature_name) continue;
     found = true;
     const std::string where = feature_where(path, i, name);
-    DELOS_CHECK(features[i].is_object() && features[i].contains("geometry"), ErrorKind::input,
-                where, ": has no \"geometry\". Repair it.");
-    add_geometry(features[i]["geometry"], where, 0, polygons);
+    add_geometry(geometry_of(features[i], where), where, 0, polygons);
   }
   if (!found) refuse_unknown_name(path, feature_name, names);
   DELOS_CHECK(!polygons.rings.empty(), ErrorKind::input, polygons.source,
@@ -277,6 +281,74 @@ std::vector<LonLatLine> read_lines(const std::string& path, const std::string& s
   if (!found) refuse_unknown_name(path, select, known);
   DELOS_CHECK(!lines.empty(), ErrorKind::input, path,
               ": holds no line. Give a file with LineStrings.");
+  return lines;
+}
+
+namespace {
+
+LineFeature read_line_feature(const Json& positions, const std::string& where,
+                              LineFeature::Kind kind) {
+  DELOS_CHECK(positions.is_array(), ErrorKind::input, where,
+              ": its coordinates are not an array of positions. Repair them.");
+  LineFeature out{where, kind, {}};
+  for (const Json& position : positions) out.lon_lat_deg.push_back(read_position(position, where));
+  const bool closes =
+      out.lon_lat_deg.size() > 1 && out.lon_lat_deg.front() == out.lon_lat_deg.back();
+  if (closes && kind != LineFeature::Kind::points) {
+    out.lon_lat_deg.pop_back();
+    out.kind = LineFeature::Kind::ring;
+  }
+  const std::size_t least = kind == LineFeature::Kind::points ? 1 : out.kind == kind ? 2 : 3;
+  DELOS_CHECK(out.lon_lat_deg.size() >= least, ErrorKind::input, where, ": it has ",
+              out.lon_lat_deg.size(), " different points: at least ", least,
+              " are needed. Repair or remove it.");
+  return out;
+}
+
+void add_line_features(const Json& geometry, const std::string& where, int nesting,
+                       std::vector<LineFeature>& lines) {
+  if (geometry.is_null()) return;  // an unlocated feature
+  DELOS_CHECK(nesting <= kMaxNesting, ErrorKind::input, where,
+              ": GeometryCollections are nested too deeply. Repair it.");
+  const std::string type = type_of(geometry, where);
+  const char* const key = type == "GeometryCollection" ? "geometries" : "coordinates";
+  DELOS_CHECK(geometry.contains(key) && geometry[key].is_array(), ErrorKind::input, where, ": its ",
+              type, " has no \"", key, "\". Repair it.");
+  const Json& parts = geometry[key];
+  if (type == "Point") {
+    lines.push_back(read_line_feature(Json::array({parts}), where, LineFeature::Kind::points));
+  } else if (type == "MultiPoint") {
+    lines.push_back(read_line_feature(parts, where, LineFeature::Kind::points));
+  } else if (type == "LineString") {
+    lines.push_back(read_line_feature(parts, where, LineFeature::Kind::line));
+  } else if (type == "MultiLineString" || type == "Polygon") {
+    const bool is_ring = type == "Polygon";
+    for (const Json& part : parts) {
+      lines.push_back(read_line_feature(
+          part, where, is_ring ? LineFeature::Kind::ring : LineFeature::Kind::line));
+    }
+  } else if (type == "MultiPolygon") {
+    for (const Json& part : parts) {
+      add_line_features(Json{{"type", "Polygon"}, {"coordinates", part}}, where, nesting, lines);
+    }
+  } else {
+    DELOS_CHECK(type == "GeometryCollection", ErrorKind::input, where, ": '", type,
+                "' is no geometry of GeoJSON. Repair it.");
+    for (const Json& part : parts) add_line_features(part, where, nesting + 1, lines);
+  }
+}
+
+}  // namespace
+
+std::vector<LineFeature> read_line_features(const std::string& path) {
+  const std::vector<Json> features = features_of(parse_file(path), path);
+  std::vector<LineFeature> lines;
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const std::string where = feature_where(path, i, name_of(features[i]));
+    add_line_features(geometry_of(features[i], where), where, 0, lines);
+  }
+  DELOS_CHECK(!lines.empty(), ErrorKind::input, path,
+              ": holds no point, line or polygon. Give a file with some.");
   return lines;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Regions from GeoJSON files (RFC 7946).
+#include <array>
 #include <string>
 #include <vector>
 
@@ -21,5 +22,18 @@ PolygonSet read_polygons(const std::string& path, const std::string& feature_nam
 /// `tags` (separated by ';'), is `select`; of all features with lines when that is empty.
 /// Longitudes as written. Error(input) as above, and when no line is found.
 std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select = "");
+
+/// Single points, a line, or one that closes (its first point is not repeated).
+struct LineFeature {
+  enum class Kind { points, line, ring };
+  std::string name;  ///< "file: feature 3 'Iceland'"
+  Kind kind = Kind::line;
+  std::vector<std::array<double, 2>> lon_lat_deg;  ///< as written
+};
+
+/// All points, lines and rings of polygons of a file, in its order: Point, MultiPoint, LineString,
+/// MultiLineString (a feature each line), Polygon, MultiPolygon (each ring) and GeometryCollection.
+/// Errors as read_polygons().
+std::vector<LineFeature> read_line_features(const std::string& path);
 
 }  // namespace delos

@@ -14,6 +14,7 @@
 #include "lifecycle/require.hpp"
 #include "lifecycle/version.hpp"
 #include "metrics/certificate.hpp"
+#include "metrics/kept_lines.hpp"
 #include "refine/refine.hpp"
 #include "relax/relax.hpp"
 #include "sizing/gradient_limit.hpp"
@@ -52,6 +53,52 @@ ReportSection relax_section(const RelaxReport& report) {
            {"n_below_target", report.n_below_target}}};
 }
 
+/// Places in degrees, the first few of many.
+std::string places(const Settings& settings, const std::vector<Vec3>& points) {
+  constexpr std::size_t kMost = 20;
+  std::string out;
+  for (std::size_t i = 0; i < std::min(points.size(), kMost); ++i) {
+    const LonLat at = settings.surface.lon_lat(points[i], settings.latitude);
+    out += text(out.empty() ? "" : "; ", at.lon_rad * kDegPerRad, ", ", at.lat_rad * kDegPerRad);
+  }
+  return points.size() > kMost ? out + "; ..." : out;
+}
+
+/// What the lines became, and what of the certificate is missed beside them.
+ReportSection lines_section(Context& context, const Settings& settings, const SpacingField& spacing,
+                            const Mesh& mesh, const RefineReport& refined) {
+  const KeptLines kept = measure_lines(context.exec, spacing, mesh);
+  DELOS_CHECK(kept.n_edges_kept == kept.n_edges, ErrorKind::internal, "the grid kept ",
+              kept.n_edges_kept, " of ", kept.n_edges, " edges of the given lines.");
+  std::vector<Vec3> missed, sharp;
+  std::int64_t n_obtuse = 0, n_short = 0;
+  for (const KeptLines::Missed& triangle : kept.missed) {
+    missed.push_back(settings.surface.project(triangle.place));
+    n_obtuse += triangle.is_obtuse ? 1 : 0;
+    n_short += triangle.is_short ? 1 : 0;
+  }
+  for (const RefineReport::SharpCorner& corner : refined.sharp_corners) {
+    sharp.push_back(corner.place);
+  }
+  if (!missed.empty()) {
+    context.monitor.log(
+        LogLevel::warning,
+        text(missed.size(), " triangles beside the lines of `constraints` miss the ",
+             "certificate, at lon, lat: ", places(settings, missed)));
+  }
+  return {"constraints",
+          {{"n_points", refined.n_given_points},
+           {"n_crossings", refined.n_crossings},
+           {"n_vertices", kept.n_vertices},
+           {"n_edges", kept.n_edges},
+           {"n_angles_below_60_deg", static_cast<std::int64_t>(sharp.size())},
+           {"places_below_60_deg", places(settings, sharp)},
+           {"n_missed", static_cast<std::int64_t>(missed.size())},
+           {"n_obtuse", n_obtuse},
+           {"n_short", n_short},
+           {"places_missed", places(settings, missed)}}};
+}
+
 Mesh triangulate(Context& context, const Settings& settings, const SpacingField& spacing,
                  std::vector<ReportSection>& sections) {
   if (settings.generator != Generator::frontal) {
@@ -73,6 +120,9 @@ Mesh triangulate(Context& context, const Settings& settings, const SpacingField&
   context.monitor.check_cancelled();
   sections.push_back(
       relax_section(relax(context, settings.surface, spacing, settings.relax, mesh)));
+  if (!settings.constraints.empty()) {
+    sections.push_back(lines_section(context, settings, spacing, mesh, refined));
+  }
   return mesh;
 }
 
@@ -230,9 +280,11 @@ Product generate(Context& context, const Settings& settings, const GenerateScope
   return generate(context, settings, inputs, size(context, settings, inputs.recipe), scope);
 }
 
-Product generate(Context& context, const Settings& settings, const Inputs& inputs, Sized sized,
+Product generate(Context& context, const Settings& given, const Inputs& inputs, Sized sized,
                  const GenerateScope& scope) {
-  Product product = begin(context, settings);
+  Product product = begin(context, given);
+  product.settings.refine.lines = inputs.lines;
+  const Settings& settings = product.settings;
   Report& report = product.report;
   describe_inputs(settings, inputs, report);
   product.elevation_m = inputs.elevation_m;

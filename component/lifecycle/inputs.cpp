@@ -2,6 +2,7 @@
 #include "lifecycle/inputs.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <memory>
 
@@ -40,6 +41,7 @@ class InputReader {
   void add_bathymetry(const BathymetrySettings& bathymetry);
   void add_domain(const DomainSettings& domain);
   void add_fixed(const RemeshSettings& remesh);
+  void add_lines(const FileRequest& request);
 
  private:
   bool has_file(const FileRequest& request) const {
@@ -200,6 +202,29 @@ void InputReader::add_fixed(const RemeshSettings& remesh) {
   }
 }
 
+/// The same place has the same bits, however its longitude was written.
+Vec3 position(const Settings& settings, const std::array<double, 2>& lon_lat_deg) {
+  const auto [lon, lat] = lon_lat_deg;
+  const bool is_pole = std::abs(lat) == 90.0;
+  const double turned = is_pole ? 0.0 : lon - 360.0 * std::ceil((lon - 180.0) / 360.0);
+  return settings.surface.point({turned * kRadPerDeg, lat * kRadPerDeg}, settings.latitude);
+}
+
+GivenLine given_line(const Settings& settings, const LineFeature& feature) {
+  constexpr GivenLine::Kind kKinds[] = {GivenLine::Kind::points, GivenLine::Kind::line,
+                                        GivenLine::Kind::ring};
+  GivenLine out{feature.name, kKinds[static_cast<std::size_t>(feature.kind)], {}};
+  for (const auto& place : feature.lon_lat_deg) out.points.push_back(position(settings, place));
+  return out;
+}
+
+void InputReader::add_lines(const FileRequest& request) {
+  const std::string path = path_of(request);
+  context_.monitor.advance(1);
+  const auto features = with_key(request.where, [&] { return read_line_features(path); });
+  for (const LineFeature& feature : features) out_.lines.push_back(given_line(settings_, feature));
+}
+
 }  // namespace
 
 Inputs read_inputs(Context& context, const Settings& settings) {
@@ -222,6 +247,10 @@ Inputs read_inputs(Context& context, const Settings& settings) {
   if (sizing.needs_bathymetry) out.recipe.elevation_m = out.elevation_m;
   if (settings.domain) reader.add_domain(*settings.domain);
   if (settings.remesh) reader.add_fixed(*settings.remesh);
+  for (const FileRequest& file : settings.constraints.files) reader.add_lines(file);
+  for (const LineFeature& shape : settings.constraints.shapes) {
+    out.lines.push_back(given_line(settings, shape));
+  }
   return out;
 }
 

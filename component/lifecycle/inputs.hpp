@@ -22,6 +22,7 @@ struct Inputs {
   SpacingRecipe recipe;                         ///< complete
   std::shared_ptr<const Raster> elevation_m;    ///< of sizing or domain; null: not used
   std::shared_ptr<const PolygonSet> land;       ///< of domain; null: the elevation's
+  std::vector<GivenLine> lines;                 ///< of constraints
   std::vector<LonLatLine> passages, blockages;  ///< of domain
   std::vector<InputRecord> files;               ///< each once, in the order of reading
   std::string bathymetry;                       ///< where the elevation came from; empty: not used

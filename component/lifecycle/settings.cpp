@@ -64,7 +64,7 @@ int read_rounds(MapReader& keys, const char* key, int fallback) {
 
 /// Baselines have one spacing everywhere, from `subdivisions` or `spacing`.
 void read_baseline(MapReader& root, const char* generator, Settings& out) {
-  for (const char* const key : {"sizing", "bathymetry", "refine", "remesh"}) {
+  for (const char* const key : {"sizing", "bathymetry", "constraints", "refine", "remesh"}) {
     if (root.has(key) && !(key == std::string_view("bathymetry") && root.has("domain"))) {
       root.fail(key, "is not used by generator: ", generator,
                 ", which takes `subdivisions` or `spacing`, and relax.centroidal_rounds.");
@@ -112,6 +112,40 @@ RefineOptions read_refine(MapReader keys) {
   out.radius_edge = number("radius_edge", Bounds::between(1.0, 10.0), out.radius_edge);
   out.size_ratio = number("size_ratio", Bounds::between(1.0, 4.0), out.size_ratio);
   out.tile_vertices = number("tile_vertices", Bounds::between(500.0, 1e7), out.tile_vertices);
+  return out;
+}
+
+LineFeature read_shape(MapReader keys) {
+  constexpr LineFeature::Kind kKinds[] = {LineFeature::Kind::points, LineFeature::Kind::line,
+                                          LineFeature::Kind::ring};
+  LineFeature out;
+  out.kind = kKinds[keys.choice("type", {"points", "line", "ring"})];
+  out.name = text(keys.locate("points"), " (", keys.string("name", ""), ")");
+  constexpr std::size_t kMaxNumbers = 2'000'000;
+  const std::size_t least = 2 * (static_cast<std::size_t>(out.kind) + 1);
+  const std::vector<double> degrees = keys.quantities(
+      "points", Dimension::angle, Bounds::between(-720.0, 720.0), {least, kMaxNumbers});
+  if (degrees.size() % 2 != 0) {
+    keys.fail("points", "has ", degrees.size(), " numbers; it is longitude, latitude in turn.");
+  }
+  for (std::size_t i = 0; i < degrees.size(); i += 2) {
+    if (std::abs(degrees[i + 1]) > 90.0) {
+      keys.fail("points", degrees[i + 1], " deg is no latitude; give longitude, latitude in turn.");
+    }
+    out.lon_lat_deg.push_back({degrees[i], degrees[i + 1]});
+  }
+  return out;
+}
+
+ConstraintSettings read_constraints(MapReader keys) {
+  ConstraintSettings out;
+  for (const std::string& file : keys.strings("files", {}, {})) {
+    out.files.push_back({file, keys.locate("files"), {}});
+  }
+  keys.each("shapes", [&](const ConfigNode& node, const std::string& path, ConfigNode& effective) {
+    out.shapes.push_back(read_shape(MapReader(node, path, effective, {"type", "name", "points"})));
+  });
+  if (out.empty()) keys.fail("files", "name GeoJSON files here, or give `shapes`.");
   return out;
 }
 
@@ -222,10 +256,10 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   Settings out;
   out.folder = folder;
   ConfigNode effective;
-  MapReader root(
-      root_node, "", effective,
-      {"title", "surface", "generator", "subdivisions", "spacing", "sizing", "bathymetry", "refine",
-       "relax", "domain", "output", "require", "remesh", "threads", "data_path"});
+  MapReader root(root_node, "", effective,
+                 {"title", "surface", "generator", "subdivisions", "spacing", "sizing",
+                  "bathymetry", "constraints", "refine", "relax", "domain", "output", "require",
+                  "remesh", "threads", "data_path"});
   out.title = root.string("title", "");
   read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
   constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,
@@ -240,10 +274,19 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
       }
     }
     out.sizing = read_sizing(root, out.surface.scale_m(), out.latitude);
+    if (root.has("constraints")) {
+      out.constraints = read_constraints(root.map("constraints", {"files", "shapes"}));
+    }
     out.refine = read_refine(root.map("refine", {"radius_edge", "size_ratio", "tile_vertices"}));
     out.relax = read_relax(root.map("relax", {"spring_rounds", "centroidal_rounds", "polish_rounds",
                                               "target_quality", "repair"}));
     out.remesh = read_remesh(root, out.surface.scale_m());
+    const bool has_fixed =
+        out.remesh && !(out.remesh->fixed.empty() && out.remesh->fixed_files.empty());
+    if (has_fixed && !out.constraints.empty()) {
+      root.fail("remesh", "with constraints a remesh makes everything anew, so it can't leave ",
+                "regions as they are. Remove remesh.fixed or constraints.");
+    }
     if (out.remesh && out.sizing.recipe.combine.rule == CombineRule::blend) {
       root.fail("remesh", "its sources can't be blended: set sizing.combine to min or max.");
     }

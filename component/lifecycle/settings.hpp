@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "geometry/ellipsoid.hpp"
+#include "io/geojson.hpp"
 #include "lifecycle/file_kind.hpp"
 #include "lifecycle/file_request.hpp"
 #include "lifecycle/partitions.hpp"
@@ -46,6 +47,13 @@ struct SizingSettings {
   bool needs_bathymetry = false;
 };
 
+/// Points and lines that become vertices and edges of the grid.
+struct ConstraintSettings {
+  std::vector<FileRequest> files;   ///< GeoJSON
+  std::vector<LineFeature> shapes;  ///< written out in the configuration
+  bool empty() const { return files.empty() && shapes.empty(); }
+};
+
 struct OutputSettings {
   std::string directory;
   std::string name;  ///< files are called <name>.<kind>.nc
@@ -81,7 +89,8 @@ struct Settings {
   Generator generator = Generator::frontal;
   std::int64_t subdivisions = 0;  ///< of the baseline generators
   SizingSettings sizing;
-  RefineOptions refine;
+  ConstraintSettings constraints;
+  RefineOptions refine;  ///< all but `lines`
   RelaxOptions relax;
   OutputSettings output;
   RequireSettings require;

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "core/error.hpp"
@@ -280,4 +281,32 @@ TEST_CASE("an optional source without its file is left out, others are missed by
   CHECK(product.grid->n_cells() > 1000);
   CHECK_THROWS_WITH_AS(static_cast<void>(generate(run.context, settings_of(yaml("false")), {})),
                        doctest::Contains("test.yaml:4 sizing.sources.1.file"), Error);
+}
+
+TEST_CASE("lines of a file and of the configuration are kept and told in the report") {
+  const testing::TemporaryFolder folder;
+  const std::string file =
+      folder.write("l.geojson", R"({"type":"LineString","coordinates":[[170,-20],[-170,20]]})");
+  const Settings settings = settings_of(yaml_of(
+      "{shape: sphere}", "constraints: {files: " + file +
+                             ", shapes: [{type: points, points: [180 deg, 60 deg, 0 deg, 90 deg]}, "
+                             "{type: line, points: [170 deg, -20 deg, 150 deg, -60 deg]}]}\n"));
+  Run run;
+  const Product product = generate(run.context, settings, {});
+  const Mesh& mesh = product.mesh;
+  const std::vector<std::array<double, 2>> given = {
+      {170, -20}, {-170, 20}, {180, 60}, {0, 90}, {150, -60}};
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const auto [lon, lat] = given[i];
+    CHECK(mesh.position(static_cast<Index>(i)) ==
+          settings.surface.point({lon * kRadPerDeg, lat * kRadPerDeg}, settings.latitude));
+  }
+  const auto section =
+      std::find_if(product.report.sections.begin(), product.report.sections.end(),
+                   [](const ReportSection& entry) { return entry.name == "constraints"; });
+  REQUIRE(section != product.report.sections.end());
+  CHECK(section->values[0] == std::pair<std::string, ReportValue>("n_points", std::int64_t{5}));
+  CHECK(section->values[3].first == "n_edges");
+  CHECK(std::get<std::int64_t>(section->values[3].second) == mesh.fixed.n_edges());
+  CHECK(mesh.fixed.n_edges() >= 15);  // 9800 km in steps of 600
 }

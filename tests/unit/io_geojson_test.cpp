@@ -180,3 +180,37 @@ TEST_CASE("published regions and land polygons are read as they are") {
   expect_error(ErrorKind::input, {"feature 0", "LineString"},
                [&] { read_polygons(data + "/mpas_transects_passages.geojson"); });
 }
+
+TEST_CASE("points, lines and rings are found in every kind of GeoJSON object") {
+  const TemporaryFolder folder;
+  const std::string path = folder.write(
+      "l.geojson",
+      collection(
+          feature("moorings", R"({"type":"MultiPoint","coordinates":[[1,2],[3,4]]})") + "," +
+          feature("", R"({"type":"Point","coordinates":[-170.5,80]})") + "," +
+          feature("section", R"({"type":"LineString","coordinates":[[0,0],[10,5],[20,0]]})") + "," +
+          feature("coast", polygon(kSquare + "," + kHole)) + "," +
+          feature("closed", R"({"type":"MultiLineString","coordinates":[)" + kSquare + "]}")));
+  const std::vector<LineFeature> lines = read_line_features(path);
+  REQUIRE(lines.size() == 6);
+  using Kind = LineFeature::Kind;
+  const std::vector<Kind> kinds = {Kind::points, Kind::points, Kind::line,
+                                   Kind::ring,   Kind::ring,   Kind::ring};
+  for (std::size_t i = 0; i < kinds.size(); ++i) CHECK(lines[i].kind == kinds[i]);
+  CHECK(lines[0].lon_lat_deg.size() == 2);
+  CHECK(lines[1].lon_lat_deg[0] == std::array<double, 2>{-170.5, 80.0});
+  CHECK(lines[2].lon_lat_deg.size() == 3);
+  CHECK(lines[3].lon_lat_deg.size() == 4);  // the first point is not repeated
+  CHECK(lines[2].name == path + ": feature 2 'section'");
+}
+
+TEST_CASE("a line of one point and an unknown geometry are refused by name") {
+  const TemporaryFolder folder;
+  const auto read = [&](const std::string& geometry) {
+    return read_line_features(folder.write("l.geojson", collection(feature("x", geometry))));
+  };
+  expect_error(ErrorKind::input, {"feature 0 'x'", "1 different points: at least 2"},
+               [&] { read(R"({"type":"LineString","coordinates":[[0,0]]})"); });
+  expect_error(ErrorKind::input, {"feature 0 'x'", "'Blob' is no geometry"},
+               [&] { read(R"({"type":"Blob","coordinates":[[0,0]]})"); });
+}

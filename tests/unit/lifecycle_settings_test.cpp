@@ -352,3 +352,24 @@ TEST_CASE("mistakes in the section remesh are named") {
   has(error_of("generator: icosahedral\nsubdivisions: 4\nremesh: {interval: P1M}\n"),
       "remesh: is not used by generator: icosahedral");
 }
+
+TEST_CASE("constraints are files and shapes written out") {
+  const Settings settings =
+      read(std::string(kUniform) +
+           "constraints:\n  files: coast.geojson\n  shapes:\n"
+           "    - {type: line, name: s, points: [0 deg, 1 deg, 2 deg, 3 deg]}\n");
+  REQUIRE(settings.constraints.files.size() == 1);
+  CHECK(settings.constraints.files[0].file == "coast.geojson");
+  REQUIRE(settings.constraints.shapes.size() == 1);
+  CHECK(settings.constraints.shapes[0].lon_lat_deg[1] == std::array<double, 2>{2.0, 3.0});
+}
+
+TEST_CASE("constraints that make no sense are refused") {
+  const auto shape = [](const std::string& keys) {
+    return std::string(kUniform) + "constraints: {shapes: [{" + keys + "}]}\n";
+  };
+  has(error_of(std::string(kUniform) + "constraints: {}\n"), "name GeoJSON files");
+  has(error_of(shape("type: line, points: [0 deg, 1 deg, 2 deg, 3 deg, 4 deg]")), "has 5 numbers");
+  has(error_of(shape("type: points, points: [0 deg, 91 deg]")), "91 deg is no latitude");
+  has(error_of(shape("type: curve, points: [0 deg, 0 deg]")), "type");
+}
