@@ -7,6 +7,7 @@
 #include "app/exit_status.hpp"
 #include "app/loaded_grid.hpp"
 #include "io/atomic_file.hpp"
+#include "io/mpas.hpp"
 #include "io/part_file.hpp"
 #include "lifecycle/partitions.hpp"
 
@@ -28,6 +29,13 @@ std::string name_of(fs::path grid) {
   return grid.stem().string();
 }
 
+/// The layers of each cell where the file has them, else nothing.
+std::vector<double> weights_of(const GridFile& file) {
+  if (file.origin.format != "MPAS") return {};
+  const std::vector<Index> n_layers = read_mpas_layers(file.path);
+  return {n_layers.begin(), n_layers.end()};
+}
+
 }  // namespace
 
 int run_partition(const Arguments& arguments, const std::atomic<bool>& cancel) {
@@ -39,7 +47,8 @@ int run_partition(const Arguments& arguments, const std::atomic<bool>& cancel) {
   Monitor monitor({}, {}, &cancel);
   Context context{exec, monitor};
   const LoadedGrid loaded = load_grid(context, arguments.file);
-  const auto partitions = make_partitions(context, loaded.grid, wishes);
+  const std::vector<double> weight = weights_of(loaded.file);
+  const auto partitions = make_partitions(context, loaded.grid, wishes, weight);
   const fs::path folder = arguments.directory.empty() ? fs::path(arguments.file).parent_path()
                                                       : fs::path(arguments.directory);
   OutputSet files;

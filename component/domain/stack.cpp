@@ -41,13 +41,20 @@ Stack build_stack(Context& context, const Levels& levels, std::span<const double
   DELOS_CHECK(options.min_levels >= 1 && options.min_levels <= levels.n_levels(), ErrorKind::config,
               "minimum_levels = ", options.min_levels,
               ": there must be one at least, and no more than the ", levels.n_levels(), " levels.");
-  Stack out{levels, Array<Index>(depth_m.size()), Array<double>(depth_m.size())};
+  Array<double> bottom_depth_m(depth_m.size());
   const auto n = static_cast<std::int64_t>(depth_m.size());
   parallel::for_index(context.exec, n, kGrain, [&](std::int64_t i) {
-    const bool is_wet = depth_m[at(i)] > 0.0;
-    out.bottom_depth_m[at(i)] = is_wet ? bottom_m(levels, depth_m[at(i)], options) : 0.0;
-    out.n_layers[at(i)] = is_wet ? layers_above(levels, out.bottom_depth_m[at(i)]) : 0;
+    bottom_depth_m[at(i)] = depth_m[at(i)] > 0.0 ? bottom_m(levels, depth_m[at(i)], options) : 0.0;
   });
+  return stack_above(levels, std::move(bottom_depth_m));
+}
+
+Stack stack_above(const Levels& levels, Array<double> bottom_depth_m) {
+  Stack out{levels, {}, std::move(bottom_depth_m)};
+  out.n_layers.reserve(out.bottom_depth_m.size());
+  for (const double depth_m : out.bottom_depth_m) {
+    out.n_layers.push_back(layers_above(levels, depth_m));
+  }
   return out;
 }
 

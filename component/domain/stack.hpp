@@ -49,6 +49,9 @@ struct StackReport {
 Stack build_stack(Context& context, const Levels& levels, std::span<const double> depth_m,
                   const StackOptions& options);
 
+/// The stack above bottoms that build_stack() gave.
+Stack stack_above(const Levels& levels, Array<double> bottom_depth_m);
+
 /// Sums over the cells of the grid.
 StackReport measure_stack(Context& context, const Grid& grid, const Stack& stack);
 

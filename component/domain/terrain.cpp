@@ -68,8 +68,7 @@ Array<double> ground_of(Context& context, const CellMeans& means) {
   return out;
 }
 
-TerrainLayers build_terrain_layers(Context& context, const Grid& grid, Array<double> ground_m,
-                                   const TerrainOptions& options) {
+TerrainLayers terrain_over(Array<double> ground_m, const TerrainOptions& options) {
   check(options);
   TerrainLayers out;
   for (std::int64_t k = 0; k <= options.n_levels; ++k) {
@@ -79,11 +78,17 @@ TerrainLayers build_terrain_layers(Context& context, const Grid& grid, Array<dou
     out.zeta_m.push_back(zeta_m);
     out.influence.push_back(influence_at(zeta_m, options.level_above_m));
   }
+  out.ground_m = std::move(ground_m);
+  return out;
+}
+
+TerrainLayers build_terrain_layers(Context& context, const Grid& grid, Array<double> ground_m,
+                                   const TerrainOptions& options) {
   for (std::int64_t round = 0; round < options.smoothing_rounds; ++round) {
     context.monitor.check_cancelled();
     smooth(context, grid, ground_m);
   }
-  out.ground_m = std::move(ground_m);
+  TerrainLayers out = terrain_over(std::move(ground_m), options);
   const TerrainReport report = measure_terrain(context, grid, out);
   DELOS_CHECK(report.thinnest > 0.0, ErrorKind::input, "layers cross over ground of ",
               report.ground_max_m, " m: let the ground be felt higher up (layers.level_above), ",

@@ -55,6 +55,9 @@ Array<double> ground_of(Context& context, const CellMeans& means);
 TerrainLayers build_terrain_layers(Context& context, const Grid& grid, Array<double> ground_m,
                                    const TerrainOptions& options);
 
+/// The layers over ground that build_terrain_layers() smoothed.
+TerrainLayers terrain_over(Array<double> ground_m, const TerrainOptions& options);
+
 TerrainReport measure_terrain(Context& context, const Grid& grid, const TerrainLayers& layers);
 
 }  // namespace delos::domain

@@ -17,8 +17,10 @@ namespace {
 
 using netcdf::DimensionId;
 using netcdf::Type;
+using netcdf::VariableId;
 
-// Rows that are gathered before they go to the file: a few megabytes of the widest table.
+// Values that are gathered before they go to the file, a few megabytes, and rows at most.
+constexpr std::int64_t kBlockValues = std::int64_t{1} << 20;
 constexpr std::int64_t kBlockRows = 65536;
 constexpr int kVertexDegree = 3;
 
@@ -35,6 +37,13 @@ std::size_t max_edges_on_cell(const Grid& grid) {
     most = std::max(most, grid.edges_on_cell.offsets.length_of(cell));
   }
   return at(most);
+}
+
+std::int64_t levels_of(const MpasOptions& options) {
+  if (options.ocean != nullptr) {
+    return static_cast<std::int64_t>(options.ocean->interface_m.size()) - 1;
+  }
+  return options.terrain != nullptr ? options.terrain->n_levels : 0;
 }
 
 /// An MPAS file in the making: add() defines a variable and remembers how to fill it, finish()
@@ -55,7 +64,11 @@ class MpasFile {
     max_edges2_dim_ = file_.define_dimension("maxEdges2", 2 * max_edges_);
     two_ = file_.define_dimension("TWO", 2);
     vertex_degree_ = file_.define_dimension("vertexDegree", kVertexDegree);
-    file_.define_dimension("Time", netcdf::kUnlimited);
+    time_ = file_.define_dimension("Time", netcdf::kUnlimited);
+    n_levels_ = levels_of(options);
+    if (n_levels_ == 0) return;
+    levels_ = file_.define_dimension("nVertLevels", at(n_levels_));
+    interfaces_ = file_.define_dimension("nVertLevelsP1", at(n_levels_ + 1));
   }
 
   void add_attributes(const Provenance& provenance);
@@ -65,6 +78,8 @@ class MpasFile {
   void add_vertex_tables();
   void add_measures();
   void add_diagnostics();
+  void add_layers(const MpasOceanLayers& layers);
+  void add_layers(const MpasTerrainLayers& layers);
   void finish();
 
  private:
@@ -72,22 +87,34 @@ class MpasFile {
   template <class T>
   using Fill = std::function<void(std::int64_t, std::span<T>)>;
   template <class T>
-  void add_table(const std::string& name, DimensionId rows, DimensionId columns, Fill<T> fill) {
-    const std::size_t width = width_of(columns);
+  VariableId add_table(const std::string& name, DimensionId rows, DimensionId columns,
+                       Fill<T> fill) {
     const auto id = file_.define_variable(name, type_of<T>(), {rows, columns});
-    puts_.push_back([=, this] { put_rows<T>(id, n_of(rows), width, true, fill); });
+    const Shape shape{n_of(rows), width_of(columns), 2};
+    puts_.push_back([=, this] { put_rows<T>(id, shape, fill); });
+    return id;
   }
   template <class T, class Value>
-  void add(const std::string& name, DimensionId rows, Value value) {
+  VariableId add(const std::string& name, DimensionId rows, Value value) {
     const auto id = file_.define_variable(name, type_of<T>(), {rows});
     puts_.push_back([=, this] {
-      put_rows<T>(id, n_of(rows), 1, false,
+      put_rows<T>(id, {n_of(rows), 1, 1},
                   [&](std::int64_t i, std::span<T> out) { out[0] = static_cast<T>(value(i)); });
     });
+    return id;
   }
+  /// Of a variable: rank 1 [rows], 2 [rows, width], 3 [Time, rows, width] at the first time.
+  struct Shape {
+    std::int64_t rows;
+    std::size_t width;
+    std::size_t rank;
+  };
   template <class T>
-  void put_rows(netcdf::VariableId id, std::int64_t n, std::size_t width, bool two_dimensional,
-                const Fill<T>& fill);
+  void put_rows(VariableId id, const Shape& shape, const Fill<T>& fill);
+  void explain(VariableId id, const char* units, const char* long_name) {
+    file_.attribute(id, "units", units);
+    file_.attribute(id, "long_name", long_name);
+  }
   void add_ragged(const std::string& name, DimensionId rows, DimensionId columns,
                   const Ragged<Index>& table) {
     add_table<std::int32_t>(name, rows, columns,
@@ -110,14 +137,18 @@ class MpasFile {
   static std::int32_t id_from_one(Index id) { return id + 1; }
 
   std::int64_t n_of(DimensionId rows) const {
-    return rows.id == cells_.id   ? grid_.n_cells()
-           : rows.id == edges_.id ? grid_.n_edges()
-                                  : grid_.n_vertices();
+    return rows.id == cells_.id        ? grid_.n_cells()
+           : rows.id == edges_.id      ? grid_.n_edges()
+           : rows.id == levels_.id     ? n_levels_
+           : rows.id == interfaces_.id ? n_levels_ + 1
+                                       : grid_.n_vertices();
   }
   std::size_t width_of(DimensionId columns) const {
     return columns.id == max_edges_dim_.id    ? max_edges_
            : columns.id == max_edges2_dim_.id ? 2 * max_edges_
            : columns.id == two_.id            ? 2
+           : columns.id == levels_.id         ? at(n_levels_)
+           : columns.id == interfaces_.id     ? at(n_levels_ + 1)
                                               : kVertexDegree;
   }
   double length(double metres) const { return metres / unit_m_; }
@@ -130,27 +161,32 @@ class MpasFile {
   double unit_m_ = 1.0;  // metres per unit of length of the file
   double radius_ = 1.0;  // of the sphere, in that unit
   std::size_t max_edges_ = 0;
+  std::int64_t n_levels_ = 0;
   DimensionId cells_, edges_, vertices_, max_edges_dim_, max_edges2_dim_, two_, vertex_degree_;
+  DimensionId time_, levels_, interfaces_;
 };
 
 template <class T>
-void MpasFile::put_rows(netcdf::VariableId id, std::int64_t n, std::size_t width,
-                        bool two_dimensional, const Fill<T>& fill) {
-  const auto rows_of = [n](std::int64_t k) { return std::min(kBlockRows, n - k * kBlockRows); };
+void MpasFile::put_rows(VariableId id, const Shape& shape, const Fill<T>& fill) {
+  const std::int64_t n = shape.rows;
+  const auto width = static_cast<std::int64_t>(shape.width);
+  const std::int64_t block_rows =
+      std::min(kBlockRows, std::max(kBlockValues / width, std::int64_t{1}));
+  const auto rows_of = [=](std::int64_t k) { return std::min(block_rows, n - k * block_rows); };
   const auto convert = [&](std::vector<T>& block, std::int64_t k) {
-    block.assign(at(rows_of(k)) * width, T{0});
+    block.assign(at(rows_of(k) * width), T{0});
     parallel::for_index(exec_, rows_of(k), kConvertGrain, [&](std::int64_t i) {
-      fill(k * kBlockRows + i, std::span<T>(block.data() + at(i) * width, width));
+      fill(k * block_rows + i, std::span<T>(block.data() + at(i * width), shape.width));
     });
   };
   const auto put = [&](const std::vector<T>& block, std::int64_t k) {
-    const std::array<std::size_t, 2> start = {at(k * kBlockRows), 0},
-                                     count = {at(rows_of(k)), width};
-    const std::size_t rank = two_dimensional ? 2 : 1;
-    file_.put_block(id, std::span(start.data(), rank), std::span(count.data(), rank),
-                    std::span<const T>(block));
+    const std::array<std::size_t, 3> start = {0, at(k * block_rows), 0},
+                                     count = {1, at(rows_of(k)), shape.width};
+    const std::size_t first = shape.rank == 3 ? 0 : 1;
+    file_.put_block(id, std::span(start).subspan(first, shape.rank),
+                    std::span(count).subspan(first, shape.rank), std::span<const T>(block));
   };
-  stream_blocks<std::vector<T>>(exec_, (n + kBlockRows - 1) / kBlockRows, convert, put);
+  stream_blocks<std::vector<T>>(exec_, (n + block_rows - 1) / block_rows, convert, put);
 }
 
 void MpasFile::add_attributes(const Provenance& provenance) {
@@ -311,18 +347,61 @@ void MpasFile::add_diagnostics() {
   }
 }
 
+void MpasFile::add_layers(const MpasOceanLayers& layers) {
+  const std::span<const double> z = layers.interface_m;
+  explain(add<double>("refBottomDepth", levels_, [z](std::int64_t k) { return z[at(k) + 1]; }), "m",
+          "depth of the bottom of each level where the sea is deeper");
+  explain(add<double>("refZMid", levels_,
+                      [z](std::int64_t k) { return -0.5 * (z[at(k)] + z[at(k) + 1]); }),
+          "m", "height of the middle of each level, negative below the surface");
+  explain(add<double>("refInterfaces", interfaces_, [z](std::int64_t k) { return z[at(k)]; }), "m",
+          "depth of the interfaces between the levels");
+  explain(add<double>("vertCoordMovementWeights", levels_, [](std::int64_t) { return 1.0; }), "1",
+          "share of each level in the motion of the surface");
+  explain(add<std::int32_t>("maxLevelCell", cells_,
+                            [&layers](std::int64_t i) { return layers.n_layers[at(i)]; }),
+          "1", "lowest level of the sea in each cell, from 1; 0 on land");
+  explain(add<double>("bottomDepth", cells_,
+                      [&layers](std::int64_t i) { return layers.bottom_depth_m[at(i)]; }),
+          "m", "depth of the bottom of the sea, positive down");
+  const Fill<double> thickness = [&layers](std::int64_t i, std::span<double> out) {
+    for (std::size_t k = 0; k < out.size(); ++k) {
+      out[k] = layers.thickness_m(i, static_cast<std::int64_t>(k));
+    }
+  };
+  explain(add_table<double>("restingThickness", cells_, levels_, thickness), "m",
+          "thickness of the layers of a sea at rest");
+  const auto id = file_.define_variable("layerThickness", Type::float64, {time_, cells_, levels_});
+  explain(id, "m", "thickness of the layers");
+  const Shape shape{grid_.n_cells(), at(n_levels_), 3};
+  puts_.push_back([=, this] { put_rows<double>(id, shape, thickness); });
+}
+
+void MpasFile::add_layers(const MpasTerrainLayers& layers) {
+  explain(add<double>("ter", cells_, [&layers](std::int64_t i) { return layers.ground_m[at(i)]; }),
+          "m", "height of the ground above sea level");
+  explain(add_table<double>("zgrid", cells_, interfaces_,
+                            [&layers](std::int64_t i, std::span<double> out) {
+                              for (std::size_t k = 0; k < out.size(); ++k) {
+                                out[k] = layers.height_m(i, static_cast<std::int64_t>(k));
+                              }
+                            }),
+          "m", "height of the interfaces between the layers above sea level");
+}
+
 void MpasFile::finish() {
   file_.end_definitions();
   for (const auto& put : puts_) put();
   file_.close();
 }
 
-std::uint64_t size_bytes(std::int64_t n_cells, std::size_t max_edges) {
+std::uint64_t size_bytes(std::int64_t n_cells, std::size_t max_edges, std::int64_t n_levels) {
   constexpr std::uint64_t kReal = 8, kId = 4, kPlace = 5 * kReal + kId;
   const std::uint64_t cell = kPlace + 5 * kReal + kId * (1 + 3 * max_edges);
   const std::uint64_t edge = kPlace + 4 * kReal + 5 * kId + 2 * max_edges * (kId + kReal);
   const std::uint64_t vertex = kPlace + 3 * (2 * kId + kReal) + 3 * kReal + 2 * kId;
-  return static_cast<std::uint64_t>(n_cells) * (cell + 3 * edge + 2 * vertex);
+  const std::uint64_t column = 2 * kReal * static_cast<std::uint64_t>(n_levels);
+  return static_cast<std::uint64_t>(n_cells) * (cell + 3 * edge + 2 * vertex + column);
 }
 
 }  // namespace
@@ -332,7 +411,7 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
   DELOS_CHECK(grid.surface.is_sphere(), ErrorKind::output, path,
               ": MPAS files know spheres only, "
               "this grid is on an ellipsoid. Map it to the sphere first, or write UGRID.");
-  AtomicFile target(path, size_bytes(grid.n_cells(), max_edges_on_cell(grid)));
+  AtomicFile target(path, size_bytes(grid.n_cells(), max_edges_on_cell(grid), levels_of(options)));
   parallel::Executor alone(1);
   parallel::Executor& exec = options.exec != nullptr ? *options.exec : alone;
   target.fill([&](const std::string& temporary) {
@@ -344,6 +423,8 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
     file.add_vertex_tables();
     file.add_measures();
     file.add_diagnostics();
+    if (options.ocean != nullptr) file.add_layers(*options.ocean);
+    if (options.terrain != nullptr) file.add_layers(*options.terrain);
     file.finish();
   });
   target.commit();
@@ -378,9 +459,9 @@ void write_graph_info(const std::string& path, const Grid& grid) {
   target.commit();
 }
 
-std::uint64_t mpas_size_bytes(std::int64_t n_cells) {
+std::uint64_t mpas_size_bytes(std::int64_t n_cells, std::int64_t n_levels) {
   constexpr std::size_t kUsualMaxEdges = 7;
-  return size_bytes(n_cells, kUsualMaxEdges);
+  return size_bytes(n_cells, kUsualMaxEdges, n_levels);
 }
 
 }  // namespace delos

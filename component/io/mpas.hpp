@@ -3,9 +3,11 @@
 // MPAS mesh files: the C-grid as MPAS-Ocean, MPAS-Atmosphere, MPAS-Tools and swe-python read it.
 // MPAS knows spheres only: bring a grid of an ellipsoid to the sphere first (geometry/conformal).
 #include <string>
+#include <vector>
 
 #include "core/parallel.hpp"
 #include "dual/grid.hpp"
+#include "io/mpas_layers.hpp"
 #include "io/netcdf.hpp"
 #include "io/provenance.hpp"
 
@@ -18,6 +20,9 @@ struct MpasOptions {
   bool on_unit_sphere = false;
   /// Converts while the file is written; null: all on the calling thread.
   parallel::Executor* exec = nullptr;
+  /// What the file says of the vertical; at most one of the two.
+  const MpasOceanLayers* ocean = nullptr;
+  const MpasTerrainLayers* terrain = nullptr;
 };
 
 /// Writes every variable of the MPAS mesh specification, ids from 1, 0 = none; atomically.
@@ -44,7 +49,11 @@ std::string mpas_parent_id(const std::string& path);
 /// graph.info for METIS: "nCells nInternalEdges", then the neighbours of each cell, from 1.
 void write_graph_info(const std::string& path, const Grid& grid);
 
+/// Layers of each cell (maxLevelCell), [n_cells]; empty when the file has none. Error(input) when a
+/// number is out of range.
+std::vector<Index> read_mpas_layers(const std::string& path);
+
 /// Bytes of the file that write_mpas makes, within a few per cent, to check the disk before a run.
-std::uint64_t mpas_size_bytes(std::int64_t n_cells);
+std::uint64_t mpas_size_bytes(std::int64_t n_cells, std::int64_t n_levels = 0);
 
 }  // namespace delos

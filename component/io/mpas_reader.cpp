@@ -218,6 +218,19 @@ Grid MpasTables::grid() const {
 
 Grid read_mpas(const std::string& path) { return MpasTables(path).grid(); }
 
+std::vector<Index> read_mpas_layers(const std::string& path) {
+  const netcdf::Reader file(path);
+  if (!file.has_variable("maxLevelCell")) return {};
+  const std::vector<std::int32_t> out = file.read_int32("maxLevelCell");
+  const auto n_cells = file.dimension("nCells").length;
+  DELOS_CHECK(out.size() == n_cells, ErrorKind::input, path, ": maxLevelCell has ", out.size(),
+              " values for ", n_cells, " cells.");
+  const auto bad = std::find_if(out.begin(), out.end(), [](Index n) { return n < 0; });
+  DELOS_CHECK(bad == out.end(), ErrorKind::input, path, ": maxLevelCell of cell ",
+              bad - out.begin() + 1, " is ", *bad, ": levels count from 1, 0 is land.");
+  return {out.begin(), out.end()};
+}
+
 std::string mpas_parent_id(const std::string& path) {
   const netcdf::Reader file(path);
   const std::string id = file.text_attribute("", "file_id").value_or("");

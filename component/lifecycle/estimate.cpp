@@ -61,8 +61,9 @@ Estimate estimate_cost(const Settings& settings, double n_cells, bool with_dual)
   }
   const auto count = static_cast<std::int64_t>(std::min(n_cells, kMaxCells));
   const OutputSettings& output = settings.output;
+  const std::int64_t n_levels = settings.layers ? settings.layers->n_levels() : 0;
   out.disk_bytes = kReportBytes;
-  if (output.mpas) out.disk_bytes += static_cast<double>(mpas_size_bytes(count));
+  if (output.mpas) out.disk_bytes += static_cast<double>(mpas_size_bytes(count, n_levels));
   if (output.ugrid_triangles) {
     out.disk_bytes += static_cast<double>(ugrid_triangles_size_bytes(count));
   }

@@ -145,11 +145,29 @@ void describe_inputs(const Settings& settings, const Inputs& inputs, Report& rep
   report.sections.push_back(std::move(section));
 }
 
-/// Where the domain comes from: the inputs, or what was selected before.
+/// Where domain and layers come from: the inputs, or what was made of them before.
 struct DomainSource {
   const Inputs* inputs = nullptr;
   std::vector<Index> cells;
+  std::vector<double> layer_heights;
 };
+
+void build_layers(Context& context, Product& product, const DomainSource& source) {
+  const Settings& settings = product.settings;
+  if (!settings.layers) return;
+  product.layers = source.inputs != nullptr
+                       ? make_layers(context, settings, *source.inputs->elevation_m, *product.grid,
+                                     product.domain.has_value(), product.report)
+                       : restored_layers(*settings.layers, source.layer_heights);
+}
+
+void build_partitions(Context& context, Product& product) {
+  product.partitions = make_partitions(context, *product.grid, product.settings.output.partitions,
+                                       cell_weights(product.layers));
+  for (const GridPartition& partition : product.partitions) {
+    product.report.partitions.push_back(report_entry(partition));
+  }
+}
 
 void build_dual(Context& context, Product& product, const DomainSource& source) {
   const Ellipsoid& surface = product.settings.surface;
@@ -166,6 +184,10 @@ void build_dual(Context& context, Product& product, const DomainSource& source) 
                                           product.report)
                          : cull_to_cells(context, source.cells, *product.grid);
   }
+}
+
+/// After the other sections, since it is made anew at a restart.
+void add_digest(Context& context, Product& product) {
   const Phase phase(context.monitor, "digest", product.grid->n_cells());
   product.report.sections.push_back({"dual", {{"digest", digest(context.exec, *product.grid)}}});
 }
@@ -230,13 +252,11 @@ void finish(Context& context, Product& product, const GenerateScope& scope,
                                      product.mesh, product.settings.latitude);
   }
   judge(context, product, scope.directory);
-  if (scope.with_dual || product.settings.domain) build_dual(context, product, source);
-  if (scope.with_dual) {
-    product.partitions =
-        make_partitions(context, *product.grid, product.settings.output.partitions);
-    for (const GridPartition& partition : product.partitions) {
-      report.partitions.push_back(report_entry(partition));
-    }
+  if (scope.with_dual || product.settings.domain || product.settings.layers) {
+    build_dual(context, product, source);
+    build_layers(context, product, source);
+    add_digest(context, product);
+    if (scope.with_dual) build_partitions(context, product);
   }
   report.phases = context.monitor.phases();
 }
@@ -257,7 +277,8 @@ OutputContent output_content(const Product& product, const std::string& command)
           product.spacing,
           file_notes(product, command),
           {},
-          product.partitions};
+          product.partitions,
+          product.layers ? &*product.layers : nullptr};
 }
 
 Sized size(Context& context, const Settings& settings, const SpacingRecipe& recipe) {
@@ -300,7 +321,7 @@ Product generate(Context& context, const Settings& given, const Inputs& inputs, 
   }
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = std::move(sized.field);
-  finish(context, product, scope, {&inputs, {}});
+  finish(context, product, scope, {&inputs, {}, {}});
   return product;
 }
 
@@ -312,7 +333,8 @@ Product resume(Context& context, const Settings& settings, SavedProduct saved) {
   product.mesh = std::move(saved.mesh);
   product.spacing_table_m = std::move(saved.spacing_table_m);
   product.spacing = std::move(saved.spacing);
-  finish(context, product, {}, {nullptr, std::move(saved.domain_cells)});
+  finish(context, product, {},
+         {nullptr, std::move(saved.domain_cells), std::move(saved.layer_heights)});
   return product;
 }
 

@@ -11,6 +11,7 @@
 #include "dual/grid.hpp"
 #include "lifecycle/domain.hpp"
 #include "lifecycle/inputs.hpp"
+#include "lifecycle/layers.hpp"
 #include "lifecycle/outputs.hpp"
 #include "lifecycle/settings.hpp"
 #include "metrics/report.hpp"
@@ -24,6 +25,7 @@ struct Product {
   Mesh mesh;
   std::optional<Grid> grid;                    ///< the dual, when it was asked for
   std::optional<DomainIds> domain;             ///< when `grid` is a part of the surface
+  std::optional<Layers> layers;                ///< of the grid's cells, when asked for
   SpacingField spacing;                        ///< what the grid was asked to follow
   std::optional<LatLonField> spacing_table_m;  ///< when the settings write it
   std::shared_ptr<const Raster> elevation_m;   ///< when the recipe used it
@@ -72,7 +74,8 @@ struct SavedProduct {
   SpacingField spacing;
   std::optional<LatLonField> spacing_table_m;
   std::string report_notes;
-  std::vector<Index> domain_cells;  ///< DomainIds::cells; empty: the grid covers the surface
+  std::vector<Index> domain_cells;    ///< DomainIds::cells; empty: the grid covers the surface
+  std::vector<double> layer_heights;  ///< saved_heights() of the layers, when there are any
 };
 
 /// The product that was saved, to the last bit of its arrays and its report, of which only threads

@@ -243,7 +243,9 @@ Inputs read_inputs(Context& context, const Settings& settings) {
               "sizing.sources: every source is optional and lacks its file. Add one that needs no "
               "file, e.g. {type: constant, spacing: 60 km}.");
   const bool is_sea_masked = settings.domain && settings.domain->needs_bathymetry();
-  if (sizing.needs_bathymetry || is_sea_masked) reader.add_bathymetry(sizing.bathymetry);
+  if (sizing.needs_bathymetry || is_sea_masked || settings.layers) {
+    reader.add_bathymetry(sizing.bathymetry);
+  }
   if (sizing.needs_bathymetry) out.recipe.elevation_m = out.elevation_m;
   if (settings.domain) reader.add_domain(*settings.domain);
   if (settings.remesh) reader.add_fixed(*settings.remesh);

@@ -110,11 +110,44 @@ Grid carry_to_sphere(Context& context, const OutputContent& content, Provenance&
   return grid;
 }
 
+std::int64_t n_levels(const Settings& settings) {
+  return settings.layers ? settings.layers->n_levels() : 0;
+}
+
+/// Layers as MPAS files have them.
+class MpasColumns {
+ public:
+  explicit MpasColumns(const Layers* layers) {
+    if (layers == nullptr) return;
+    if (layers->ocean) {
+      const domain::Stack& stack = *layers->ocean;
+      ocean_ = {stack.levels.interface_m, stack.n_layers, stack.bottom_depth_m,
+                [&stack](std::int64_t cell, std::int64_t k) { return stack.thickness_m(cell, k); }};
+    } else {
+      const domain::TerrainLayers& terrain = *layers->terrain;
+      terrain_ = {
+          terrain.n_levels(), terrain.ground_m,
+          [&terrain](std::int64_t cell, std::int64_t k) { return terrain.height_m(cell, k); }};
+    }
+  }
+  /// The options refer to this from then on.
+  void show(MpasOptions& options) const {
+    if (ocean_) options.ocean = &*ocean_;
+    if (terrain_) options.terrain = &*terrain_;
+  }
+
+ private:
+  std::optional<MpasOceanLayers> ocean_;
+  std::optional<MpasTerrainLayers> terrain_;
+};
+
 void write_mpas_file(Context& context, const OutputContent& content, const std::string& path) {
   DELOS_ASSERT(content.grid != nullptr);
   const OutputSettings& output = content.settings.output;
-  const MpasOptions options{output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
-                            output.unit_sphere, &context.exec};
+  MpasOptions options{output.compress ? netcdf::Format::netcdf4 : netcdf::Format::cdf5,
+                      output.unit_sphere, &context.exec};
+  const MpasColumns columns(content.layers);
+  columns.show(options);
   Provenance provenance = provenance_of(content);
   if (content.settings.surface.is_sphere()) {
     write_mpas(path, *content.grid, provenance, options);
@@ -182,7 +215,8 @@ class OutputWriter {
         content_.domain != nullptr ? content_.grid->n_cells() : content_.mesh.n_vertices();
     const std::uint64_t ugrid_bytes =
         ugrid_triangles_size_bytes(n_cells, ugrid_options(context_, content_));
-    if (output.mpas) write_grid(FileKind::mpas, "mpas.nc", mpas_size_bytes(n_cells));
+    if (output.mpas)
+      write_grid(FileKind::mpas, "mpas.nc", mpas_size_bytes(n_cells, n_levels(content_.settings)));
     if (output.ugrid_triangles) {
       write_grid(FileKind::ugrid_triangles, "ugrid_triangles.nc", ugrid_bytes);
     }

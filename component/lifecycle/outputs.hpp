@@ -12,6 +12,7 @@
 #include "lifecycle/domain.hpp"
 #include "lifecycle/file_kind.hpp"
 #include "lifecycle/inputs.hpp"
+#include "lifecycle/layers.hpp"
 #include "lifecycle/settings.hpp"
 #include "metrics/certificate.hpp"
 #include "sizing/spacing.hpp"
@@ -39,6 +40,7 @@ struct OutputContent {
   /// Writes a picture ("globe", "map", "histograms") to a path; null: no pictures.
   std::function<void(const std::string& picture, const std::string& path)> draw;
   std::span<const GridPartition> partitions = {};
+  const Layers* layers = nullptr;  ///< of the grid's cells
 };
 
 /// Phase "write". Every file that settings.output names, into `directory` (made when it is not

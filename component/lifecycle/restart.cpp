@@ -29,6 +29,7 @@ constexpr const char* kComponentClock = "component_clock";
 constexpr const char* kVertices = "vertices";
 constexpr const char* kTriangles = "triangles";
 constexpr const char* kDomain = "domain_cells";
+constexpr const char* kLayers = "layer_heights";
 constexpr const char* kNotes = "report_notes";
 constexpr const char* kSpacing = "spacing";
 constexpr const char* kSpacingTable = "spacing_table";
@@ -112,6 +113,10 @@ std::vector<RestartArray> arrays_of(const Restart& state, const Content& content
   if (product.domain) {
     out.push_back({kDomain, "[n_cells] the vertex, from 0, of each cell of the culled grid",
                    std::span<const std::int32_t>(product.domain->cells)});
+  }
+  if (product.layers) {
+    out.push_back({kLayers, "[n_cells] depth of the bottom or height of the ground, in m",
+                   saved_heights(*product.layers)});
   }
   add_table(content.spacing, kSpacing, "units of the largest radius", out);
   add_table(content.table_m, kSpacingTable, "m", out);
@@ -294,8 +299,10 @@ SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
              : SpacingField::table(exec, settings.surface, settings.latitude, *table_m);
   std::vector<Index> cells;
   if (settings.domain) cells = file.ids(kDomain);
-  return {read_mesh(file), std::move(spacing), std::move(table_m), file.text(kNotes),
-          std::move(cells)};
+  std::vector<double> heights;
+  if (settings.layers) heights = file.doubles(kLayers);
+  return {read_mesh(file),   std::move(spacing), std::move(table_m),
+          file.text(kNotes), std::move(cells),   std::move(heights)};
 }
 
 }  // namespace

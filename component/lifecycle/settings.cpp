@@ -65,7 +65,9 @@ int read_rounds(MapReader& keys, const char* key, int fallback) {
 /// Baselines have one spacing everywhere, from `subdivisions` or `spacing`.
 void read_baseline(MapReader& root, const char* generator, Settings& out) {
   for (const char* const key : {"sizing", "bathymetry", "constraints", "refine", "remesh"}) {
-    if (root.has(key) && !(key == std::string_view("bathymetry") && root.has("domain"))) {
+    const bool is_for_cells =
+        key == std::string_view("bathymetry") && (root.has("domain") || root.has("layers"));
+    if (root.has(key) && !is_for_cells) {
       root.fail(key, "is not used by generator: ", generator,
                 ", which takes `subdivisions` or `spacing`, and relax.centroidal_rounds.");
     }
@@ -258,8 +260,8 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   ConfigNode effective;
   MapReader root(root_node, "", effective,
                  {"title", "surface", "generator", "subdivisions", "spacing", "sizing",
-                  "bathymetry", "constraints", "refine", "relax", "domain", "output", "require",
-                  "remesh", "threads", "data_path"});
+                  "bathymetry", "constraints", "refine", "relax", "domain", "layers", "output",
+                  "require", "remesh", "threads", "data_path"});
   out.title = root.string("title", "");
   read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
   constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,
@@ -300,6 +302,8 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
               "`remesh`.");
   }
   if (out.domain && out.domain->needs_bathymetry()) add_bathymetry(root, out.sizing);
+  out.layers = read_layers(root);
+  if (out.layers) add_bathymetry(root, out.sizing);
   out.output = read_output(
       root.map("output", {"directory", "name", "formats", "graph", "partitions", "partition_method",
                           "report", "spacing", "pictures", "view", "unit_sphere", "compress"}));

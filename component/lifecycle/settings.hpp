@@ -13,6 +13,7 @@
 #include "lifecycle/file_request.hpp"
 #include "lifecycle/partitions.hpp"
 #include "lifecycle/settings_domain.hpp"
+#include "lifecycle/settings_layers.hpp"
 #include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
@@ -95,6 +96,7 @@ struct Settings {
   OutputSettings output;
   RequireSettings require;
   std::optional<DomainSettings> domain;  ///< without it the grid covers the whole surface
+  std::optional<LayerSettings> layers;   ///< without it the grid has no vertical
   std::optional<RemeshSettings> remesh;  ///< without it the grid stays
   int threads = 0;
   /// The effective configuration (defaults and overrides included) as YAML, without `threads` and

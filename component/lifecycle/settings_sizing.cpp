@@ -442,7 +442,9 @@ SizingSettings read_sizing(MapReader& root, double radius_m, LatitudeKind latitu
   if (sizing.has("cells")) {
     out.recipe.cells = sizing.integer("cells", 12, 2'000'000'000);
   }
-  if (root.has("bathymetry") || out.needs_bathymetry) add_bathymetry(root, out);
+  if (root.has("bathymetry") || root.has("layers") || out.needs_bathymetry) {
+    add_bathymetry(root, out);
+  }
   return out;
 }
 

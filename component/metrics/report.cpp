@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "metrics/report.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <nlohmann/json.hpp>
@@ -281,6 +282,34 @@ void add_verdict(const Report& report, std::vector<std::string>& lines) {
   lines.push_back(missed.substr(0, kColumns));
 }
 
+double real(const ReportSection& section, const char* key) {
+  for (const auto& [name, value] : section.values) {
+    if (name != key) continue;
+    if (const auto* const whole = std::get_if<std::int64_t>(&value)) {
+      return static_cast<double>(*whole);
+    }
+    if (const auto* const plain = std::get_if<double>(&value)) return *plain;
+  }
+  return 0.0;
+}
+
+/// Of the section "layers", whichever kind it tells of.
+void add_layers(const ReportSection& section, std::vector<std::string>& lines) {
+  const double levels = real(section, "levels");
+  const bool is_ocean = std::any_of(section.values.begin(), section.values.end(),
+                                    [](const auto& entry) { return entry.first == "depth_m"; });
+  if (is_ocean) {
+    lines.push_back(
+        line("layers      %.0f to %.0f m, %.1f a sea cell; %.4g km3, %+.2f %% of the data's",
+             levels, real(section, "depth_m"), real(section, "mean_levels"),
+             1e-9 * real(section, "volume_m3"), 100.0 * (real(section, "volume_ratio") - 1.0)));
+  } else {
+    lines.push_back(
+        line("layers      %.0f to %.0f m over ground up to %.0f m, thinnest %.2f of flat", levels,
+             real(section, "top_m"), real(section, "ground_max_m"), real(section, "thinnest")));
+  }
+}
+
 /// One line, as many as it holds: "16 (kway): 4.2 % of edges cut, 1.02 of the mean; 64 ...".
 void add_partitions(const std::vector<ReportPartition>& partitions,
                     std::vector<std::string>& lines) {
@@ -392,6 +421,9 @@ std::string report_text(const Report& report) {
   add_sizes(report, lines);
   add_quality(report.quality, lines);
   add_verdict(report, lines);
+  for (const ReportSection& section : report.sections) {
+    if (section.name == "layers") add_layers(section, lines);
+  }
   add_partitions(report.partitions, lines);
   add_times(report.phases, lines);
   if (!report.digest.empty()) lines.push_back("digest      " + report.digest);

@@ -84,6 +84,34 @@ must 'mesh refuses more parts than cells before it begins' sh -c "
   ! '$delos' mesh c.yaml -o few --set 'output.partitions=[100000]' 2>few.txt && test ! -e few &&
   grep -q 'output.partitions asks for 100000 parts' few.txt && ! grep -q '^refine' few.txt"
 
+# Layers, on the whole sphere and on the sea alone. Embedded bathymetry where there is no other.
+cat >sea.yaml <<'YAML'
+sizing: {sources: [{type: constant, spacing: 500 km}]}
+refine: {tile_vertices: 500}
+layers: {kind: z_level, levels: {shape: ocean_80}, minimum_depth: 50 m}
+output: {name: sea, formats: [mpas], partitions: [4]}
+YAML
+cat >near_one.py <<'PY'
+import json, sys
+layers = json.load(open(sys.argv[1]))["layers"]
+print(layers)
+sys.exit(0 if abs(layers["volume_ratio"] - 1) < float(sys.argv[2]) and layers["levels"] == 80 else 1)
+PY
+must 'mesh makes layers' sh -c "
+  '$delos' mesh sea.yaml -o sea >sea.txt 2>/dev/null && grep -q '^layers *80 to 6000 m' sea.txt"
+must 'the volume of the sea is that of the data within 0.5 %' python3 near_one.py sea/sea.report.json 0.005
+must 'a grid with layers is sound' sh -c "'$delos' check sea/sea.mpas.nc | grep -q ': sound'"
+must 'partition takes the layers of the file as weights' sh -c "
+  '$delos' partition sea/sea.mpas.nc 4 -o . >/dev/null && cmp sea.graph.info.part.4 sea/sea.graph.info.part.4"
+must 'the culled sea has layers everywhere' sh -c "
+  '$delos' mesh sea.yaml -o culled --quiet --set domain.bodies=largest && python3 near_one.py culled/sea.report.json 0.05 &&
+  python3 -c 'import json; r = json.load(open(\"culled/sea.report.json\"));
+assert r[\"layers\"][\"n_wet\"] == r[\"domain\"][\"n_cells\"]'"
+must 'an atmosphere follows the ground' sh -c "
+  sed 's/^layers.*/layers: {kind: terrain_following, n: 20}/' sea.yaml >air.yaml &&
+  '$delos' mesh air.yaml -o air 2>/dev/null | grep -q '^layers *20 to 30000 m over ground' &&
+  grep -a -q zgrid air/sea.mpas.nc"
+
 must 'convert refuses an ending that says nothing' sh -c "
   ! '$delos' convert out/small.mpas.nc x.nc 2>convert_error.txt && grep -q -e '--to' convert_error.txt && test ! -e x.nc"
 

@@ -273,6 +273,76 @@ TEST_CASE("the announced size of an MPAS file is that of the file within 10 %") 
         doctest::Approx(actual).epsilon(0.1));
 }
 
+TEST_CASE("the layers of an ocean stand in the file, in metres on a unit sphere too") {
+  const TemporaryFolder folder;
+  const Grid grid = sample_grid();
+  const std::string path = folder.file("grid.nc");
+  const std::vector<double> interface_m{0.0, 10.0, 30.0, 60.0};
+  std::vector<delos::Index> n_layers;
+  std::vector<double> bottom_m;
+  for (delos::Index i = 0; i < grid.n_cells(); ++i) {
+    n_layers.push_back(i % 4);
+    bottom_m.push_back(i % 4 == 0 ? 0.0 : interface_m[static_cast<std::size_t>(i % 4)] - 1.0);
+  }
+  const delos::MpasOceanLayers layers{interface_m, n_layers, bottom_m,
+                                      [](std::int64_t cell, std::int64_t level) {
+                                        return static_cast<double>(100 * cell + level);
+                                      }};
+  for (const Format format : {Format::cdf5, Format::netcdf4}) {
+    MpasOptions options{format, true};
+    options.ocean = &layers;
+    delos::write_mpas(path, grid, {}, options);
+    const Reader file(path);
+    CHECK(file.dimension("nVertLevels").length == 3);
+    CHECK(file.dimension("nVertLevelsP1").length == 4);
+    CHECK(file.dimension("Time").length == 1);
+    CHECK(file.read_double("refBottomDepth") == std::vector<double>{10.0, 30.0, 60.0});
+    CHECK(file.read_double("refZMid") == std::vector<double>{-5.0, -20.0, -45.0});
+    CHECK(file.read_double("refInterfaces") == interface_m);
+    CHECK(file.read_double("vertCoordMovementWeights") == std::vector<double>(3, 1.0));
+    CHECK(file.read_double("bottomDepth") == bottom_m);
+    CHECK(file.text_attribute("bottomDepth", "units") == "m");
+    CHECK(file.text_attribute("maxLevelCell", "units") == "1");
+    CHECK(delos::read_mpas_layers(path) == n_layers);
+    const auto n = static_cast<std::size_t>(grid.n_cells());
+    CHECK(file.variable("layerThickness").shape_text() ==
+          delos::text("layerThickness(1, ", n, ", 3)"));
+    for (const char* name : {"restingThickness", "layerThickness"}) {
+      const std::vector<double> thickness = file.read_double(name);
+      REQUIRE(thickness.size() == 3 * n);
+      for (std::size_t k = 0; k < thickness.size(); ++k) {
+        CHECK(thickness[k] == static_cast<double>(100 * (k / 3) + k % 3));
+      }
+    }
+    // The mesh beside them is read as before.
+    check_same_tables(delos::read_mpas(path), grid);
+  }
+  CHECK(delos::mpas_size_bytes(1000, 60) - delos::mpas_size_bytes(1000) == 2 * 8 * 60 * 1000);
+  delos::write_mpas(path, grid, {});
+  CHECK(delos::read_mpas_layers(path).empty());
+  CHECK_FALSE(Reader(path).has_dimension("nVertLevels"));
+}
+
+TEST_CASE("the interfaces over land stand in the file") {
+  const TemporaryFolder folder;
+  const Grid grid = sample_grid();
+  const std::vector<double> ground_m(static_cast<std::size_t>(grid.n_cells()), 500.0);
+  const delos::MpasTerrainLayers layers{2, ground_m, [](std::int64_t cell, std::int64_t k) {
+                                          return static_cast<double>(10 * cell + k);
+                                        }};
+  MpasOptions options;
+  options.terrain = &layers;
+  delos::write_mpas(folder.file("grid.nc"), grid, {}, options);
+  const Reader file(folder.file("grid.nc"));
+  CHECK(file.read_double("ter") == ground_m);
+  const std::vector<double> height_m = file.read_double("zgrid");
+  REQUIRE(height_m.size() == 3 * ground_m.size());
+  for (std::size_t k = 0; k < height_m.size(); ++k) {
+    CHECK(height_m[k] == static_cast<double>(10 * (k / 3) + k % 3));
+  }
+  CHECK(file.text_attribute("zgrid", "units") == "m");
+}
+
 TEST_CASE("graph.info lists the neighbours of each cell from 1, as METIS reads them") {
   const TemporaryFolder folder;
   const Grid grid = sample_grid();

@@ -127,6 +127,8 @@ TEST_CASE("a restart at any step with other threads is the straight run to the l
   check_restarts(kVariable);
   check_restarts(std::string(kVariable) + "output: {spacing: true}\n");
   check_restarts(std::string(kConstant) + "output: {spacing: true}\n");
+  check_restarts(std::string(kConstant) + "layers: {kind: z_level}\noutput: {partitions: [3]}\n");
+  check_restarts(std::string(kConstant) + "layers: {kind: terrain_following}\n");
 }
 
 TEST_CASE("a component that was finalized restarts, and its generation is the file's") {

@@ -116,6 +116,27 @@ TEST_CASE("partitions stand in both reports, on one line of the screen") {
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
 }
 
+TEST_CASE("layers are a line of the screen") {
+  Report report = sample_report();
+  report.sections.push_back({"layers",
+                             {{"kind", std::string("z_level")},
+                              {"levels", std::int64_t{60}},
+                              {"depth_m", 5500.0},
+                              {"mean_levels", 41.34},
+                              {"volume_m3", 1.3321e18},
+                              {"volume_ratio", 0.9988}}});
+  CHECK(report_text(report).find("\nlayers      60 to 5500 m, 41.3 a sea cell; 1.332e+09 km3, "
+                                 "-0.12 % of the data's\n") != std::string::npos);
+  report.sections.back() = {"layers",
+                            {{"kind", std::string("terrain_following")},
+                             {"levels", std::int64_t{55}},
+                             {"top_m", 30000.0},
+                             {"ground_max_m", 4780.4},
+                             {"thinnest", 0.612}}};
+  CHECK(report_text(report).find("\nlayers      55 to 30000 m over ground up to 4780 m, thinnest "
+                                 "0.61 of flat\n") != std::string::npos);
+}
+
 TEST_CASE("a number that is not finite is refused by its name") {
   Report report = sample_report();
   report.quality.stagger_mean = std::numeric_limits<double>::quiet_NaN();
