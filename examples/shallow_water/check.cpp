@@ -36,16 +36,18 @@ delos::Grid icosahedral(int subdivisions) {
       "\nrelax: {centroidal_rounds: 100}\n"));
 }
 
-// Follows the jet, with some 2500 cells.
+// Follows the jet, with some 2500 cells, at every alarm.
 constexpr char kFollowing[] = R"(
 sizing:
   sources: [{type: constant, spacing: 480 km}]
   cells: 2500
 remesh:
   interval: PT6H
-  sources: [{type: indicator, quiet: [0.1, 900 km], energetic: [0.7, 250 km], fill: 0, smooth: 3 deg}]
+  sources: [{type: indicator, quiet: [0.1, 900 km], energetic: [1, 250 km], fill: 0, smooth: 1 deg}]
   with_static: false
-  threshold: 0.02
+  threshold: 0.002
+  hysteresis: 0
+  tau: 1.05
 )";
 
 Model started(const char* name, const delos::Grid& grid, double anticipation = 0.0) {

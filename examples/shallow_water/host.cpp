@@ -9,6 +9,7 @@ namespace shallow_water {
 namespace {
 
 constexpr double kHour_s = 3600.0;
+constexpr int kRehearsal_h = 24;  // of the component before the start: two alarms of 12 hours
 constexpr char kImport[] = "remesh_indicator";
 
 }  // namespace
@@ -31,8 +32,13 @@ std::vector<double> indicator(const Model& model) {
       steepest[cell] = std::max(steepest[cell], std::fabs(rise_s) / over_m);
     }
   }
-  const double most = *std::max_element(steepest.begin(), steepest.end());
-  for (double& slope : steepest) slope = most > 0.0 ? std::sqrt(slope / most) : 0.0;
+  CompensatedSum squares, area_m2;
+  for (std::size_t cell = 0; cell < steepest.size(); ++cell) {
+    squares.add(grid.cell_area_m2()[cell] * steepest[cell] * steepest[cell]);
+    area_m2.add(grid.cell_area_m2()[cell]);
+  }
+  const double usual = std::sqrt(squares.value() / area_m2.value());
+  for (double& slope : steepest) slope = usual > 0.0 ? std::min(1.0, slope / usual) : 0.0;
   return steepest;
 }
 
@@ -44,14 +50,20 @@ Host::Host(const Case& flow, const Physics& physics, const delos::Config& config
       clock_({.start = delos::Time::parse("2000-01-01"), .step = delos::TimeInterval::of_hours(1)}),
       model_(physics) {
   component_.initialize();
+  begin();
+  // The flow of the start asks for its own grid, where it can be made anew exactly.
+  for (int hour = 0; hour < kRehearsal_h; ++hour) {
+    if (run_component()) begin();
+  }
+}
+
+void Host::begin() {
   Start start = case_.start(component_.grid(), physics_);
   model_.start(component_.grid(), std::move(start.ground_m), std::move(start.flow));
 }
 
-std::optional<Change> Host::advance_hour(double courant) {
-  const double n = std::ceil(kHour_s / model_.step_s(courant));
-  for (double step = 0.0; step < n; ++step) model_.advance(kHour_s / n);
-  ++hour_;
+bool Host::run_component() {
+  const std::int64_t generation = component_.generation();
   const delos::State imports = component_.import_state();
   if (imports.contains(kImport)) {
     delos::Field field = imports.field(kImport);
@@ -60,8 +72,15 @@ std::optional<Change> Host::advance_hour(double courant) {
   }
   component_.run(imports, component_.export_state(), clock_);
   clock_.advance();
+  return component_.generation() != generation;
+}
+
+std::optional<Change> Host::advance_hour(double courant) {
+  const double n = std::ceil(kHour_s / model_.step_s(courant));
+  for (double step = 0.0; step < n; ++step) model_.advance(kHour_s / n);
+  ++hour_;
   const delos::Grid before = model_.grid();
-  if (component_.generation() == before.generation()) return {};
+  if (!run_component()) return {};
   return carry(before, component_.grid());
 }
 

@@ -11,8 +11,9 @@
 
 namespace shallow_water {
 
-/// How strongly the flow asks for small cells [n_cells], from 0 to 1: the root of the steepest
-/// slope of the vorticity about the cell over that of the whole sphere.
+/// How strongly the flow asks for small cells [n_cells], from 0 to 1: the steepest slope of the
+/// vorticity about the cell over the root-mean-square of these, which a few fronts do not rule; all
+/// above it asks alike, so that what is fine is evenly so.
 std::vector<double> indicator(const Model& model);
 
 /// A change of grid, from one flow to the other.
@@ -23,7 +24,8 @@ struct Change {
 
 class Host {
  public:
-  /// Error(config) and what the grid's making throws.
+  /// The component runs a day ahead on the flow of the start, so that the grid is the one that this
+  /// asks for. Error(config) and what the grid's making throws.
   Host(const Case& flow, const Physics& physics, const delos::Config& config, int threads);
 
   /// An hour of the model, then one of the component: where the configuration has a section
@@ -37,6 +39,8 @@ class Host {
   std::string decision() const { return component_.remesh_decision(); }
 
  private:
+  void begin();
+  bool run_component();  // for an hour; whether there is a new grid
   Change carry(const delos::Grid& before, const delos::Grid& after);
 
   Case case_;
