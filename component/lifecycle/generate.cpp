@@ -155,10 +155,12 @@ struct DomainSource {
 void build_layers(Context& context, Product& product, const DomainSource& source) {
   const Settings& settings = product.settings;
   if (!settings.layers) return;
-  product.layers = source.inputs != nullptr
-                       ? make_layers(context, settings, *source.inputs->elevation_m, *product.grid,
-                                     product.domain.has_value(), product.report)
-                       : restored_layers(*settings.layers, source.layer_heights);
+  product.layers =
+      source.inputs != nullptr
+          ? make_layers(context, settings,
+                        {*product.grid, *source.inputs->elevation_m, product.domain.has_value()},
+                        product.report)
+          : restored_layers(*settings.layers, source.layer_heights);
 }
 
 void build_partitions(Context& context, Product& product) {
@@ -265,7 +267,7 @@ void finish(Context& context, Product& product, const GenerateScope& scope,
 
 Certificate certificate_of(const Product& product) {
   Certificate whole = certificate(product.report.quality);
-  return product.domain ? in_domain(*product.domain, std::move(whole)) : whole;
+  return product.domain ? in_domain(*product.domain, whole) : whole;
 }
 
 OutputContent output_content(const Product& product, const std::string& command) {

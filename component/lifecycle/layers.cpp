@@ -56,10 +56,11 @@ ReportSection section_of(const domain::TerrainLayers& layers, const domain::Terr
 }
 
 domain::Stack make_ocean(Context& context, const LayerSettings& settings,
-                         const domain::CellMeans& means, const Grid& grid,
-                         std::span<const std::uint8_t> is_wet, Report& report) {
-  const domain::ShapedDepth shaped =
-      domain::shape_bathymetry(context, grid, means, is_wet, settings.bathymetry);
+                         const LayerSources& sources, const domain::CellMeans& means,
+                         Report& report) {
+  const domain::ShapedDepth shaped = domain::shape_bathymetry(
+      context, sources.grid, means, sea_cells(means, settings.least_wet, sources.is_sea_only),
+      settings.bathymetry);
   const domain::BathymetryReport& depth = shaped.report;
   if (settings.bathymetry.max_r_factor > 0.0 && depth.r_factor > settings.bathymetry.max_r_factor) {
     context.monitor.log(
@@ -69,24 +70,26 @@ domain::Stack make_ocean(Context& context, const LayerSettings& settings,
   }
   domain::Stack stack =
       domain::build_stack(context, settings.levels, shaped.depth_m, settings.stack);
-  report.sections.push_back(section_of(stack, depth, domain::measure_stack(context, grid, stack)));
+  report.sections.push_back(
+      section_of(stack, depth, domain::measure_stack(context, sources.grid, stack)));
   return stack;
 }
 
 }  // namespace
 
-Layers make_layers(Context& context, const Settings& settings, const Raster& elevation_m,
-                   const Grid& grid, bool is_sea_only, Report& report) {
+Layers make_layers(Context& context, const Settings& settings, const LayerSources& sources,
+                   Report& report) {
+  const Grid& grid = sources.grid;
   const Phase phase(context.monitor, "layers", grid.n_cells());
   const LayerSettings& wanted = *settings.layers;
   const bool is_ocean = wanted.kind == LayerKind::z_level;
   const double sea_level_m =
       is_ocean && settings.domain ? settings.domain->options.sea_level_m : 0.0;
-  const domain::CellMeans means = domain::mean_over_cells(context, grid, elevation_m, sea_level_m);
+  const domain::CellMeans means =
+      domain::mean_over_cells(context, grid, sources.elevation_m, sea_level_m);
   Layers out;
   if (is_ocean) {
-    out.ocean = make_ocean(context, wanted, means, grid,
-                           sea_cells(means, wanted.least_wet, is_sea_only), report);
+    out.ocean = make_ocean(context, wanted, sources, means, report);
   } else {
     out.terrain = domain::build_terrain_layers(context, grid, domain::ground_of(context, means),
                                                wanted.terrain);

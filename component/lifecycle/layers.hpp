@@ -21,11 +21,17 @@ struct Layers {
   std::optional<domain::TerrainLayers> terrain;
 };
 
+/// What layers are made of.
+struct LayerSources {
+  const Grid& grid;
+  const Raster& elevation_m;
+  bool is_sea_only;  ///< every cell is sea, else those with the wet share that the settings want
+};
+
 /// Phase "layers": from the elevation's means over the cells; section "layers" of the report.
-/// Where `is_sea_only`, every cell is sea, else those with the wet share that the settings want.
 /// The settings must have layers. Errors of shape_bathymetry, build_stack, build_terrain_layers.
-Layers make_layers(Context& context, const Settings& settings, const Raster& elevation_m,
-                   const Grid& grid, bool is_sea_only, Report& report);
+Layers make_layers(Context& context, const Settings& settings, const LayerSources& sources,
+                   Report& report);
 
 /// What must be kept to make them again: depth of the bottom (0: land), or height of the ground, of
 /// each cell.

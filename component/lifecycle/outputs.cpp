@@ -117,14 +117,14 @@ std::int64_t n_levels(const Settings& settings) {
 /// Layers as MPAS files have them.
 class MpasColumns {
  public:
-  explicit MpasColumns(const Layers* layers) {
-    if (layers == nullptr) return;
-    if (layers->ocean) {
-      const domain::Stack& stack = *layers->ocean;
+  explicit MpasColumns(const Layers* layers) : layers_(layers) {
+    if (layers_ == nullptr) return;
+    if (layers_->ocean) {
+      const domain::Stack& stack = *layers_->ocean;
       ocean_ = {stack.levels.interface_m, stack.n_layers, stack.bottom_depth_m,
                 [&stack](std::int64_t cell, std::int64_t k) { return stack.thickness_m(cell, k); }};
     } else {
-      const domain::TerrainLayers& terrain = *layers->terrain;
+      const domain::TerrainLayers& terrain = *layers_->terrain;
       terrain_ = {
           terrain.n_levels(), terrain.ground_m,
           [&terrain](std::int64_t cell, std::int64_t k) { return terrain.height_m(cell, k); }};
@@ -132,13 +132,18 @@ class MpasColumns {
   }
   /// The options refer to this from then on.
   void show(MpasOptions& options) const {
-    if (ocean_) options.ocean = &*ocean_;
-    if (terrain_) options.terrain = &*terrain_;
+    if (layers_ == nullptr) return;
+    if (layers_->ocean) {
+      options.ocean = &ocean_;
+    } else {
+      options.terrain = &terrain_;
+    }
   }
 
  private:
-  std::optional<MpasOceanLayers> ocean_;
-  std::optional<MpasTerrainLayers> terrain_;
+  const Layers* layers_;
+  MpasOceanLayers ocean_;  // the one that there is
+  MpasTerrainLayers terrain_;
 };
 
 void write_mpas_file(Context& context, const OutputContent& content, const std::string& path) {

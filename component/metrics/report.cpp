@@ -293,6 +293,27 @@ double real(const ReportSection& section, const char* key) {
   return 0.0;
 }
 
+/// Of the section "domain": what is left of the cells, and the lines that hold.
+void add_domain(const ReportSection& section, std::vector<std::string>& lines) {
+  lines.push_back(line("domain      %s cells, %.4g million km2, %.0f of %.0f bodies",
+                       grouped(static_cast<std::int64_t>(real(section, "n_cells"))).c_str(),
+                       1e-12 * real(section, "area_m2"), real(section, "n_bodies_kept"),
+                       real(section, "n_bodies")));
+  if (real(section, "n_passages") + real(section, "n_blockages") == 0.0) return;
+  lines.push_back(line("            %.0f of %.0f passages open, %.0f of %.0f blockages shut",
+                       real(section, "n_passages_open"), real(section, "n_passages"),
+                       real(section, "n_blockages_shut"), real(section, "n_blockages")));
+}
+
+/// Of the section "constraints"; bad triangles miss the certificate.
+void add_constraints(const ReportSection& section, std::vector<std::string>& lines) {
+  const auto count = [&](const char* key) {
+    return grouped(static_cast<std::int64_t>(real(section, key)));
+  };
+  lines.push_back("lines       " + count("n_vertices") + " vertices, " + count("n_edges") +
+                  " edges kept; " + count("n_missed") + " bad triangles there");
+}
+
 /// Of the section "layers", whichever kind it tells of.
 void add_layers(const ReportSection& section, std::vector<std::string>& lines) {
   const double levels = real(section, "levels");
@@ -422,6 +443,8 @@ std::string report_text(const Report& report) {
   add_quality(report.quality, lines);
   add_verdict(report, lines);
   for (const ReportSection& section : report.sections) {
+    if (section.name == "constraints") add_constraints(section, lines);
+    if (section.name == "domain") add_domain(section, lines);
     if (section.name == "layers") add_layers(section, lines);
   }
   add_partitions(report.partitions, lines);

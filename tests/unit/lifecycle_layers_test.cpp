@@ -63,7 +63,7 @@ Run run(const Grid& grid, const std::string& layers, int threads = 2, bool is_se
   Context context{exec, monitor};
   Run out{settings_of(layers), {}, {}};
   out.layers =
-      make_layers(context, out.settings, sample_elevation(), grid, is_sea_only, out.report);
+      make_layers(context, out.settings, {grid, sample_elevation(), is_sea_only}, out.report);
   return out;
 }
 

@@ -116,6 +116,32 @@ TEST_CASE("partitions stand in both reports, on one line of the screen") {
   for (std::string line; std::getline(lines, line);) CHECK(line.size() <= 80);
 }
 
+TEST_CASE("the domain and given lines are on the screen") {
+  Report report = sample_report();
+  report.sections.push_back({"constraints",
+                             {{"n_vertices", std::int64_t{1234}},
+                              {"n_edges", std::int64_t{1200}},
+                              {"n_missed", std::int64_t{2}}}});
+  report.sections.push_back({"domain",
+                             {{"n_cells", std::int64_t{117194}},
+                              {"area_m2", 3.6148e14},
+                              {"n_bodies", std::int64_t{31}},
+                              {"n_bodies_kept", std::int64_t{1}}}});
+  CHECK(report_text(report).find(
+            "\nlines       1 234 vertices, 1 200 edges kept; 2 bad "
+            "triangles there\n"
+            "domain      117 194 cells, 361.5 million km2, 1 of 31 bodies\n") != std::string::npos);
+  CHECK(report_text(report).find("passages") == std::string::npos);
+  report.sections.back().values.insert(report.sections.back().values.end(),
+                                       {{"n_passages", std::int64_t{19}},
+                                        {"n_passages_open", std::int64_t{18}},
+                                        {"n_blockages", std::int64_t{21}},
+                                        {"n_blockages_shut", std::int64_t{21}}});
+  CHECK(
+      report_text(report).find("\n            18 of 19 passages open, 21 of 21 blockages shut\n") !=
+      std::string::npos);
+}
+
 TEST_CASE("layers are a line of the screen") {
   Report report = sample_report();
   report.sections.push_back({"layers",
