@@ -12,7 +12,7 @@ namespace {
 
 /// Places a task; no result depends on it.
 constexpr std::int64_t kPlaceGrain = 4096;
-constexpr double kTurn_deg = 360.0;
+constexpr double kCircle_deg = 360.0;
 
 Vec3 direction(double lon_rad, double lat_rad) {
   const elementary::SinCos lon = elementary::sincos(lon_rad), lat = elementary::sincos(lat_rad);
@@ -27,13 +27,13 @@ bool holds(const FixedDisc& disc, const LonLat& place) {
 
 /// An angle in [0, 360).
 double turned(double angle_deg) {
-  return angle_deg - kTurn_deg * std::floor(angle_deg / kTurn_deg);
+  return angle_deg - kCircle_deg * std::floor(angle_deg / kCircle_deg);
 }
 
 bool holds(const FixedBox& box, const LonLat& place) {
   const double lat_deg = place.lat_rad * kDegPerRad;
   if (lat_deg < box.south_deg || lat_deg > box.north_deg) return false;
-  if (box.east_deg - box.west_deg >= kTurn_deg) return true;
+  if (box.east_deg - box.west_deg >= kCircle_deg) return true;
   const double width_deg = turned(box.east_deg - box.west_deg);
   return turned(place.lon_rad * kDegPerRad - box.west_deg) <= width_deg;
 }

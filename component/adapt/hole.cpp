@@ -18,8 +18,6 @@ constexpr std::int64_t kHoleGrain = 1;  // a hole is at least some hundred trian
 // fresh mesh, no triangle of a hole spans more.
 constexpr double kLongestSide = 1.05;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The triangles of all holes, and where a triangle's is: its hole's first place and its place among
 // the hole's triangles together, or kNone.
 struct Flooded {

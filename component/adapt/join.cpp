@@ -10,8 +10,6 @@ constexpr std::int64_t kCopyGrain = 16384;  // vertices or triangles a task: som
 constexpr std::size_t kLeastRoom = 64, kRoomShare = 16;  // polish adds below 1 % of new vertices
 constexpr std::int64_t kHoleGrain = 1;  // a filling is at least some hundred triangles
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The id after compaction by the id before, kNone where is_gone(id), and how many are left.
 struct NewIds {
   std::vector<Index> of;

@@ -12,8 +12,6 @@ namespace {
 
 constexpr std::int64_t kCompareGrain = 8192;  // vertices a task: about a quarter millisecond
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 template <class Visit>
 void for_each_neighbour(const OldMesh& old, Index vertex, const Visit& visit) {
   delos::for_each_neighbour(old.mesh, old.at_vertex[at(vertex)], vertex, visit);

@@ -16,8 +16,6 @@ namespace {
 constexpr std::int64_t kScanGrain = 16384;  // items a task: some ten microseconds
 constexpr int kReleaseRings = 2;            // around a triangle that misses the certificate
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 Remeshed unchanged(const Mesh& mesh) {
   Remeshed out{mesh, std::vector<Index>(mesh.vertices.size())};
   std::iota(out.new_id.begin(), out.new_id.end(), 0);

@@ -17,8 +17,6 @@ constexpr std::int64_t kPointGrain = 4096;
 /// Entries of StatisticsState.
 constexpr std::size_t kCounts = 6, kTimes = 4;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 void check_options(const StatisticsOptions& options) {
   if (options.window == Window::since_remesh) return;
   DELOS_CHECK(std::isfinite(options.length_s) && options.length_s > 0.0, ErrorKind::config,

@@ -5,6 +5,7 @@
 // units of the largest radius of the ellipsoid ("scaled"), which is how every layer computes.
 #include <Eigen/Core>
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 namespace delos {
@@ -12,6 +13,9 @@ namespace delos {
 /// Id of a vertex, triangle, cell or edge; base 0, -1 = none.
 using Index = std::int32_t;
 inline constexpr Index kNone = -1;
+
+/// Where element i of a standard container stands: their sizes are unsigned, our ids are not.
+constexpr std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 using Vec3 = Eigen::Vector3d;
 

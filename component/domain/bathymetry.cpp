@@ -10,9 +10,7 @@
 namespace delos::domain {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t kEdgeGrain = 4096;
 
 double r_factor(double a, double b) { return std::abs(a - b) / (a + b); }
 
@@ -29,7 +27,7 @@ std::vector<Index> wet_edges(const Grid& grid, std::span<const std::uint8_t> is_
 double largest_r_factor(Context& context, const Grid& grid, const std::vector<Index>& edges,
                         const Array<double>& depth_m) {
   return parallel::reduce(
-      context.exec, static_cast<std::int64_t>(edges.size()), kGrain, 0.0,
+      context.exec, static_cast<std::int64_t>(edges.size()), kEdgeGrain, 0.0,
       [&](std::int64_t begin, std::int64_t end) {
         double most = 0.0;
         for (std::int64_t i = begin; i < end; ++i) {
@@ -100,10 +98,10 @@ ShapedDepth shape_bathymetry(Context& context, const Grid& grid, const CellMeans
   report.r_factor_before = largest_r_factor(context, grid, edges, out.depth_m);
   if (options.max_r_factor > 0.0) smooth(context, grid, options, edges, out);
   report.r_factor = largest_r_factor(context, grid, edges, out.depth_m);
-  report.wet_volume_m3 = parallel::sum(context.exec, n_cells, kGrain, [&](std::int64_t i) {
+  report.wet_volume_m3 = parallel::sum(context.exec, n_cells, kEdgeGrain, [&](std::int64_t i) {
     return grid.cell_area_m2[at(i)] * means.wet_fraction[at(i)] * means.wet_depth_m[at(i)];
   });
-  report.volume_m3 = parallel::sum(context.exec, n_cells, kGrain, [&](std::int64_t i) {
+  report.volume_m3 = parallel::sum(context.exec, n_cells, kEdgeGrain, [&](std::int64_t i) {
     return grid.cell_area_m2[at(i)] * out.depth_m[at(i)];
   });
   return out;

@@ -6,12 +6,6 @@
 #include "core/error.hpp"
 
 namespace delos::domain {
-namespace {
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 Bodies find_bodies(const Grid& grid, const Mask& sea) {
   Bodies out;
   out.of_cell.assign(sea.size(), kNone);

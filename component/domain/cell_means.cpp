@@ -15,8 +15,6 @@ constexpr std::int64_t kCellGrain = 256;  // about a millisecond
 // linear over the cell has its exact mean.
 constexpr int kLeastParts = 2;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Sums over the samples of a triangle or a cell, each weighted.
 struct Sums {
   double all = 0.0, valid = 0.0, wet = 0.0;  // weight

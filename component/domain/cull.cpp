@@ -9,9 +9,7 @@
 namespace delos::domain {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;  // rows of tables: tenths of a millisecond
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t kTableGrain = 4096;  // rows of tables: tenths of a millisecond
 
 // From old ids to new ones, kNone for what is left out, and back.
 struct Numbers {
@@ -24,7 +22,7 @@ struct Numbering {
 
 Array<Index> none_of(parallel::Executor& exec, std::int64_t n) {
   Array<Index> out(at(n));
-  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel::for_range(exec, n, kTableGrain, [&](std::int64_t begin, std::int64_t end) {
     std::fill(out.begin() + begin, out.begin() + end, kNone);
   });
   return out;
@@ -67,14 +65,14 @@ Numbers number_elements(parallel::Executor& exec, std::span<const Index> cells,
     }
   };
   const std::vector<std::int64_t> first =
-      parallel::exclusive_scan(exec, n, kGrain, [&](std::int64_t i) {
+      parallel::exclusive_scan(exec, n, kTableGrain, [&](std::int64_t i) {
         std::int64_t count = 0;
         visit_own(i, [&](Index) { ++count; });
         return count;
       });
   Numbers out{none_of(exec, static_cast<std::int64_t>(cells_of.size())),
               Array<Index>(at(first.back()))};
-  parallel::for_index(exec, n, kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, n, kTableGrain, [&](std::int64_t i) {
     auto next = static_cast<Index>(first[at(i)]);
     visit_own(i, [&](Index element) {
       out.old_id[at(next)] = element;
@@ -87,7 +85,7 @@ Numbers number_elements(parallel::Executor& exec, std::span<const Index> cells,
 template <class T>
 Array<T> taken(parallel::Executor& exec, const Array<T>& from, std::span<const Index> ids) {
   Array<T> out(from.empty() ? 0 : ids.size());
-  parallel::for_index(exec, static_cast<std::int64_t>(out.size()), kGrain,
+  parallel::for_index(exec, static_cast<std::int64_t>(out.size()), kTableGrain,
                       [&](std::int64_t i) { out[at(i)] = from[at(ids[at(i)])]; });
   return out;
 }
@@ -104,14 +102,14 @@ void take_cells(parallel::Executor& exec, const Grid& from, std::span<const Inde
   to.cell_spacing_m = taken(exec, from.cell_spacing_m, cells);
   const auto n = static_cast<std::int64_t>(cells.size());
   Array<std::int64_t> lengths(cells.size() + 1);
-  parallel::for_index(exec, n, kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, n, kTableGrain, [&](std::int64_t i) {
     lengths[at(i)] = from.edges_on_cell.offsets.length_of(cells[at(i)]);
   });
-  parallel::scan_counts(exec, kGrain, lengths);
+  parallel::scan_counts(exec, kTableGrain, lengths);
   const RowOffsets offsets(std::move(lengths));
   const auto take = [&](const Ragged<Index>& table, const Array<Index>& new_id) {
     Ragged<Index> out{offsets, Array<Index>(at(offsets.n_values()))};
-    parallel::for_index(exec, n, kGrain, [&](std::int64_t i) {
+    parallel::for_index(exec, n, kTableGrain, [&](std::int64_t i) {
       const auto row = table.row(cells[at(i)]);
       std::transform(row.begin(), row.end(), out.row(i).begin(),
                      [&](Index old) { return renamed(new_id, old); });
@@ -148,7 +146,7 @@ void take_edges(parallel::Executor& exec, const Grid& from, const Numbering& ids
   to.cells_on_edge.resize(old.size());
   to.vertices_on_edge.resize(old.size());
   to.edge_angle_rad.resize(old.size());
-  parallel::for_index(exec, static_cast<std::int64_t>(old.size()), kGrain,
+  parallel::for_index(exec, static_cast<std::int64_t>(old.size()), kTableGrain,
                       [&](std::int64_t edge) { take_edge(from, ids, at(edge), to); });
 }
 
@@ -174,7 +172,7 @@ void take_vertices(parallel::Executor& exec, const Grid& from, const Numbering& 
   to.edges_on_vertex.resize(old.size());
   to.kite_area_m2.resize(old.size());
   to.triangle_area_m2.resize(old.size());
-  parallel::for_index(exec, static_cast<std::int64_t>(old.size()), kGrain,
+  parallel::for_index(exec, static_cast<std::int64_t>(old.size()), kTableGrain,
                       [&](std::int64_t vertex) { take_vertex(from, ids, at(vertex), to); });
 }
 

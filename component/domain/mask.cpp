@@ -6,9 +6,7 @@
 namespace delos::domain {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;  // cells; tenths of a millisecond
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t kMaskGrain = 4096;  // cells; tenths of a millisecond
 
 // What surrounds a cell: sea neighbours, and the runs in which they stand around it.
 struct Shore {
@@ -35,7 +33,7 @@ Shore shore_of(const Grid& grid, const Mask& sea, std::int64_t cell) {
 
 std::int64_t count(parallel::Executor& exec, const Mask& mask) {
   return parallel::reduce(
-      exec, static_cast<std::int64_t>(mask.size()), kGrain, std::int64_t{0},
+      exec, static_cast<std::int64_t>(mask.size()), kMaskGrain, std::int64_t{0},
       [&](std::int64_t begin, std::int64_t end) {
         std::int64_t n = 0;
         for (std::int64_t i = begin; i < end; ++i) n += mask[at(i)];
@@ -46,7 +44,7 @@ std::int64_t count(parallel::Executor& exec, const Mask& mask) {
 
 Mask wet_cells(parallel::Executor& exec, const Array<double>& wet_fraction, double least_wet) {
   Mask sea(wet_fraction.size());
-  parallel::for_index(exec, static_cast<std::int64_t>(sea.size()), kGrain,
+  parallel::for_index(exec, static_cast<std::int64_t>(sea.size()), kMaskGrain,
                       [&](std::int64_t i) { sea[at(i)] = wet_fraction[at(i)] >= least_wet; });
   return sea;
 }
@@ -61,7 +59,7 @@ PruneReport prune(parallel::Executor& exec, const Grid& grid, const PruneOptions
   if (!options.bays && !options.channels) return report;
   while (true) {
     const auto removals = parallel::collect<Removal>(
-        exec, grid.n_cells(), kGrain, [&](std::int64_t begin, std::int64_t end, auto& found) {
+        exec, grid.n_cells(), kMaskGrain, [&](std::int64_t begin, std::int64_t end, auto& found) {
           for (std::int64_t i = begin; i < end; ++i) {
             if (sea[at(i)] == 0 || keep[at(i)] != 0) continue;
             const Shore shore = shore_of(grid, sea, i);

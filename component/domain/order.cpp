@@ -10,8 +10,6 @@
 namespace delos::domain {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Cells ordered by their part, parts by their first cell in `cells`.
 std::vector<Index> by_part(parallel::Executor& exec, const Grid& grid,
                            const std::vector<Index>& cells, std::int64_t n_parts) {

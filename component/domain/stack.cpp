@@ -9,9 +9,7 @@
 namespace delos::domain {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t kStackGrain = 4096;
 
 /// The bottom of a sea cell that should be at depth_m.
 double bottom_m(const Levels& levels, double depth_m, const StackOptions& options) {
@@ -43,7 +41,7 @@ Stack build_stack(Context& context, const Levels& levels, std::span<const double
               ": there must be one at least, and no more than the ", levels.n_levels(), " levels.");
   Array<double> bottom_depth_m(depth_m.size());
   const auto n = static_cast<std::int64_t>(depth_m.size());
-  parallel::for_index(context.exec, n, kGrain, [&](std::int64_t i) {
+  parallel::for_index(context.exec, n, kStackGrain, [&](std::int64_t i) {
     bottom_depth_m[at(i)] = depth_m[at(i)] > 0.0 ? bottom_m(levels, depth_m[at(i)], options) : 0.0;
   });
   return stack_above(levels, std::move(bottom_depth_m));
@@ -71,7 +69,7 @@ StackReport measure_stack(Context& context, const Grid& grid, const Stack& stack
     thinnest_m = std::min(thinnest_m, bottom_layer_m);
   }
   if (out.n_wet > 0) out.min_bottom_layer_m = thinnest_m;
-  out.volume_m3 = parallel::sum(context.exec, grid.n_cells(), kGrain, [&](std::int64_t i) {
+  out.volume_m3 = parallel::sum(context.exec, grid.n_cells(), kStackGrain, [&](std::int64_t i) {
     return grid.cell_area_m2[at(i)] * stack.bottom_depth_m[at(i)];
   });
   return out;

@@ -11,9 +11,7 @@
 namespace delos::domain {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t kTerrainGrain = 4096;
 
 double power(double base, double exponent) {
   return base <= 0.0 ? 0.0 : elementary::exp(exponent * elementary::log(base));
@@ -41,7 +39,7 @@ void check(const TerrainOptions& options) {
 void smooth(Context& context, const Grid& grid, Array<double>& ground_m) {
   constexpr double kShare = 1.0 / 12.0;
   Array<double> next(ground_m.size());
-  parallel::for_index(context.exec, grid.n_cells(), kGrain, [&](std::int64_t i) {
+  parallel::for_index(context.exec, grid.n_cells(), kTerrainGrain, [&](std::int64_t i) {
     const double area_m2 = grid.cell_area_m2[at(i)];
     double gain_m3 = 0.0;
     for (const Index other : grid.cells_on_cell.row(i)) {
@@ -59,7 +57,7 @@ void smooth(Context& context, const Grid& grid, Array<double>& ground_m) {
 Array<double> ground_of(Context& context, const CellMeans& means) {
   Array<double> out(means.elevation_m.size());
   parallel::for_index(
-      context.exec, static_cast<std::int64_t>(out.size()), kGrain, [&](std::int64_t i) {
+      context.exec, static_cast<std::int64_t>(out.size()), kTerrainGrain, [&](std::int64_t i) {
         // Without the sea floor's part, which is below 0.
         const double land_m =
             means.elevation_m[at(i)] + means.wet_fraction[at(i)] * means.wet_depth_m[at(i)];
@@ -101,9 +99,9 @@ TerrainReport measure_terrain(Context& context, const Grid& grid, const TerrainL
   for (const double ground_m : layers.ground_m) {
     out.ground_max_m = std::max(out.ground_max_m, ground_m);
   }
-  out.ground_volume_m3 = parallel::sum(context.exec, grid.n_cells(), kGrain, [&](std::int64_t i) {
-    return grid.cell_area_m2[at(i)] * layers.ground_m[at(i)];
-  });
+  out.ground_volume_m3 = parallel::sum(
+      context.exec, grid.n_cells(), kTerrainGrain,
+      [&](std::int64_t i) { return grid.cell_area_m2[at(i)] * layers.ground_m[at(i)]; });
   // The influence falls with height: layers are thinnest over the highest ground.
   out.thinnest_layer_m = std::numeric_limits<double>::infinity();
   for (std::int64_t k = 0; k < layers.n_levels(); ++k) {

@@ -12,8 +12,6 @@ namespace {
 
 constexpr double kStep = 0.25;  // of the distance to a neighbour
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 double square_to(const Grid& grid, Index cell, const Vec3& point) {
   return (grid.cell_position[at(cell)] - point).squaredNorm();
 }

@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::int64_t kAreaGrain = 1024;  // about 0.1 ms
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 using Kites = std::array<double, 3>;
 
 Kites kites_on_sphere(const Grid& grid, std::size_t vertex) {

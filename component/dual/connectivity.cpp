@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::int64_t kRowGrain = 2048;  // about 0.1 ms of table walking
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The next of `three` after that at the place of `mine` in `around`, counter-clockwise; chosen
 // without a branch, which could not be foretold.
 Index after(Index mine, const std::array<Index, 3>& around, const std::array<Index, 3>& three) {

@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::int64_t kGrain = 4096;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 struct Found {
   bool is_by_latitude = true;
   AnglesByLatitude worst;

@@ -10,8 +10,6 @@ namespace {
 
 constexpr std::int64_t kWeightGrain = 1024;  // cells; about 0.2 ms
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // What one cell needs of its surroundings, in the order of its lists and once more behind that, so
 // that a walk around it may begin anywhere. Degree 0 stands for any.
 template <std::size_t kDegree>

@@ -16,8 +16,6 @@ constexpr std::int64_t kEdgeGrain = 1024;  // about 0.1 ms, and arrays that fit 
 // cocircular cells share one dual vertex, and the edge is crossed at its middle.
 constexpr double kDegenerateDual = 1e-12;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The four points around an edge and where it lies.
 struct EdgeFrame {
   Vec3 a, b, along;   // its cells; b - a

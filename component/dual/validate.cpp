@@ -21,8 +21,6 @@ constexpr double kAntisymmetry = 1e-12;
 // A coarser tolerance than this means a grid of someone else, weights rounded likewise.
 constexpr double kOwnTolerance = 1e-8;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 double unless(bool holds) { return holds ? 0.0 : 1.0; }
 
 // The larger error; a NaN is the largest.

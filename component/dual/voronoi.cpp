@@ -9,8 +9,6 @@ namespace {
 
 constexpr std::int64_t kPointGrain = 1024;  // about 0.1 ms, and positions that fit the cache
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Calls place(i) for i in [0, n), which fills positions[i], and block by block, while the positions
 // are in the cache, fills the longitudes and latitudes.
 template <class Place>

@@ -14,27 +14,25 @@ using netcdf::DimensionId;
 using netcdf::Type;
 using netcdf::VariableId;
 
-constexpr std::int32_t kStartIndex = 1;
-constexpr std::int32_t kFill = -1;
+constexpr std::int32_t kFirstNode = 1;
+constexpr std::int32_t kNoNode = -1;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
-struct Columns {
+struct ElementColumns {
   VariableId nodes, connection, n_connected, centres, area, mask;
 };
 
-Columns define(netcdf::Writer& file, const Grid& grid, std::size_t width) {
+ElementColumns define_elements(netcdf::Writer& file, const Grid& grid, std::size_t width) {
   const DimensionId nodes = file.define_dimension("nodeCount", at(grid.n_vertices()));
   const DimensionId elements = file.define_dimension("elementCount", at(grid.n_cells()));
   const DimensionId corners = file.define_dimension("maxNodePElement", width);
   const DimensionId two = file.define_dimension("coordDim", 2);
-  Columns out;
+  ElementColumns out;
   out.nodes = file.define_variable("nodeCoords", Type::float64, {nodes, two});
   file.attribute(out.nodes, "units", "degrees");
   out.connection = file.define_variable("elementConn", Type::int32, {elements, corners});
   file.attribute(out.connection, "long_name", "Node indices that define the element connectivity");
-  file.attribute(out.connection, "_FillValue", kFill);
-  file.attribute(out.connection, "start_index", kStartIndex);
+  file.attribute(out.connection, "_FillValue", kNoNode);
+  file.attribute(out.connection, "start_index", kFirstNode);
   out.n_connected = file.define_variable("numElementConn", Type::int32, {elements});
   file.attribute(out.n_connected, "long_name", "Number of nodes per element");
   out.centres = file.define_variable("centerCoords", Type::float64, {elements, two});
@@ -50,8 +48,8 @@ void put_place(const LonLat& place, std::span<double> out) {
   out[1] = std::clamp(place.lat_rad * kDegPerRad, -90.0, 90.0);
 }
 
-void put(parallel::Executor& exec, netcdf::Writer& file, const Columns& columns, const Grid& grid,
-         std::size_t width) {
+void put_elements(parallel::Executor& exec, netcdf::Writer& file, const ElementColumns& columns,
+                  const Grid& grid, std::size_t width) {
   using Reals = std::span<double>;
   using Ids = std::span<std::int32_t>;
   const std::int64_t n = grid.n_cells();
@@ -62,7 +60,7 @@ void put(parallel::Executor& exec, netcdf::Writer& file, const Columns& columns,
                          [&](std::int64_t cell, Ids out) {
                            const auto row = grid.vertices_on_cell.row(cell);
                            for (std::size_t k = 0; k < width; ++k) {
-                             out[k] = k < row.size() ? row[k] + kStartIndex : kFill;
+                             out[k] = k < row.size() ? row[k] + kFirstNode : kNoNode;
                            }
                          });
   put_rows<std::int32_t>(exec, file, {columns.n_connected, n}, [&](std::int64_t cell, Ids out) {
@@ -139,7 +137,7 @@ void write_esmf_mesh(const std::string& path, const Grid& grid, const Provenance
   parallel::Executor alone(1);
   target.fill([&](const std::string& temporary) {
     netcdf::Writer file(temporary, options.format);
-    const Columns columns = define(file, grid, width);
+    const ElementColumns columns = define_elements(file, grid, width);
     file.attribute(netcdf::kGlobal, "gridType", "unstructured mesh");
     file.attribute(netcdf::kGlobal, "version", "0.9");
     file.attribute(netcdf::kGlobal, "source", "delos " + provenance.version);
@@ -148,7 +146,7 @@ void write_esmf_mesh(const std::string& path, const Grid& grid, const Provenance
     notes.certificate.reset();  // of triangles and edges, which the file does not name
     write_provenance(file, notes, {});
     file.end_definitions();
-    put(options.exec != nullptr ? *options.exec : alone, file, columns, grid, width);
+    put_elements(options.exec != nullptr ? *options.exec : alone, file, columns, grid, width);
     file.close();
   });
   target.commit();

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 constexpr double kFesomRadiusM = 6367500.0;  // r_earth of FESOM2's o_PARAM
 constexpr char kNodes[] = "nod2d.out";
-constexpr std::int64_t kMostIds = 2147483646;  // ids are 32 bit
+constexpr std::int64_t kMostFesomIds = 2147483646;  // ids are 32 bit
 
 /// The node file itself.
 fs::path nodes_file(const fs::path& path) {
@@ -33,7 +33,7 @@ fs::path companion(const fs::path& nodes, const char* kind) {
 void read_nodes(const std::string& path, TriangleSet& set) {
   const std::string bytes = read_file_bytes(path);
   TextScanner file(path, bytes);
-  const std::int64_t n = file.integer("the number of nodes", 3, kMostIds);
+  const std::int64_t n = file.integer("the number of nodes", 3, kMostFesomIds);
   for (std::int64_t i = 1; i <= n; ++i) {
     const std::int64_t id = file.integer("the id of a node");
     if (id != i) file.fail("node ", id, " stands where ", i, " should; ids go from 1 to ", n, ".");
@@ -50,7 +50,7 @@ void read_nodes(const std::string& path, TriangleSet& set) {
 void read_elements(const std::string& path, TriangleSet& set) {
   const std::string bytes = read_file_bytes(path);
   TextScanner file(path, bytes);
-  const std::int64_t n = file.integer("the number of triangles", 1, kMostIds);
+  const std::int64_t n = file.integer("the number of triangles", 1, kMostFesomIds);
   const auto n_nodes = static_cast<std::int64_t>(set.position.size());
   for (std::int64_t i = 0; i < n; ++i) {
     std::array<Index, 3> corners{};

@@ -16,7 +16,7 @@ constexpr std::int64_t kMostIds = 2147483646;  // ids are 32 bit
 constexpr std::int64_t kMostEntities = 1'000'000;
 
 // Gmsh's codes of elements (manual, section 10.1), and how many nodes each has.
-constexpr std::int64_t kTriangle = 2;
+constexpr std::int64_t kGmshTriangle = 2;
 std::int64_t nodes_of_passed_over(std::int64_t type) {
   return type == 15 ? 1 : type == 1 ? 2 : 0;  // points and lines
 }
@@ -49,7 +49,7 @@ void put_nodes(ByteStream& out, const TriangleSet& set) {
 
 void put_elements(ByteStream& out, const TriangleSet& set) {
   const auto n = static_cast<std::int64_t>(set.corners.size());
-  out << "$Elements\n1 " << n << " 1 " << n << "\n2 1 " << kTriangle << ' ' << n << '\n';
+  out << "$Elements\n1 " << n << " 1 " << n << "\n2 1 " << kGmshTriangle << ' ' << n << '\n';
   for (std::int64_t tag = 1; tag <= n; ++tag) {
     const auto& corner = set.corners[static_cast<std::size_t>(tag - 1)];
     out << tag << ' ' << corner[0] + 1 << ' ' << corner[1] + 1 << ' ' << corner[2] + 1 << '\n';
@@ -177,14 +177,14 @@ void GmshReader::read_elements() {
     const std::int64_t type = file_.integer("the type of elements");
     const std::int64_t n_here = file_.integer("the number of elements of a block", 0, kMostIds);
     const std::int64_t n_skipped = nodes_of_passed_over(type);
-    if (type != kTriangle && n_skipped == 0) {
+    if (type != kGmshTriangle && n_skipped == 0) {
       file_.fail("elements of Gmsh's type ", type,
                  "; only triangles (2), lines (1) and points (15) can be read.");
     }
     for (std::int64_t i = 0; i < n_here; ++i) {
       file_.integer("the tag of an element");
       for (std::int64_t k = 0; k < n_skipped; ++k) file_.integer("a node");
-      if (type != kTriangle) continue;
+      if (type != kGmshTriangle) continue;
       std::array<Index, 3> corners{};
       for (Index& corner : corners) corner = point_of(file_.integer("a node"));
       set_.corners.push_back(corners);

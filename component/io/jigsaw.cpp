@@ -12,7 +12,7 @@ namespace delos {
 namespace {
 
 constexpr double kMetresPerUnit = 1000.0;
-constexpr std::int64_t kMostIds = 2147483646;  // ids are 32 bit
+constexpr std::int64_t kMostJigsawIds = 2147483646;  // ids are 32 bit
 
 std::string upper(std::string_view words) {
   std::string out;
@@ -51,8 +51,9 @@ std::int64_t JigsawReader::count(const std::string& value) const {
   const auto [end, status] = std::from_chars(value.data(), value.data() + value.size(), n);
   const bool is_count = status == std::errc() &&
                         (end == value.data() + value.size() || *end == ';') && n >= 0 &&
-                        n <= kMostIds;
-  if (!is_count) file_.fail("'", value.substr(0, 40), "' is no count in [0, ", kMostIds, "].");
+                        n <= kMostJigsawIds;
+  if (!is_count)
+    file_.fail("'", value.substr(0, 40), "' is no count in [0, ", kMostJigsawIds, "].");
   return n;
 }
 

@@ -24,8 +24,6 @@ constexpr std::int64_t kBlockValues = std::int64_t{1} << 20;
 constexpr std::int64_t kBlockRows = 65536;
 constexpr int kVertexDegree = 3;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 template <class T>
 constexpr Type type_of() {
   return std::is_same_v<T, double> ? Type::float64 : Type::int32;

@@ -8,8 +8,6 @@
 namespace delos {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// The tables of one file, checked: the rest of the library may index with what comes from here.
 class MpasTables {
  public:

@@ -16,8 +16,6 @@ using netcdf::DimensionId;
 using netcdf::Type;
 using netcdf::VariableId;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 std::size_t max_corners(const Grid& grid) {
   std::size_t most = 3;
   for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
@@ -26,11 +24,11 @@ std::size_t max_corners(const Grid& grid) {
   return most;
 }
 
-struct Columns {
+struct CellColumns {
   VariableId dims, centre_lat, centre_lon, corner_lat, corner_lon, mask, area;
 };
 
-Columns define(netcdf::Writer& file, const Grid& grid, std::size_t width) {
+CellColumns define(netcdf::Writer& file, const Grid& grid, std::size_t width) {
   const DimensionId size = file.define_dimension("grid_size", at(grid.n_cells()));
   const DimensionId corners = file.define_dimension("grid_corners", width);
   const DimensionId rank = file.define_dimension("grid_rank", 1);
@@ -39,7 +37,7 @@ Columns define(netcdf::Writer& file, const Grid& grid, std::size_t width) {
     file.attribute(id, "units", "degrees");
     return id;
   };
-  Columns out;
+  CellColumns out;
   out.dims = file.define_variable("grid_dims", Type::int32, {rank});
   out.centre_lat = angle("grid_center_lat", {size});
   out.centre_lon = angle("grid_center_lon", {size});
@@ -52,11 +50,13 @@ Columns define(netcdf::Writer& file, const Grid& grid, std::size_t width) {
   return out;
 }
 
-double lat_deg(const LonLat& place) { return std::clamp(place.lat_rad * kDegPerRad, -90.0, 90.0); }
-double lon_deg(const LonLat& place) { return place.lon_rad * kDegPerRad; }
+double corner_lat_deg(const LonLat& place) {
+  return std::clamp(place.lat_rad * kDegPerRad, -90.0, 90.0);
+}
+double corner_lon_deg(const LonLat& place) { return place.lon_rad * kDegPerRad; }
 
-void put(parallel::Executor& exec, netcdf::Writer& file, const Columns& columns, const Grid& grid,
-         std::size_t width) {
+void put(parallel::Executor& exec, netcdf::Writer& file, const CellColumns& columns,
+         const Grid& grid, std::size_t width) {
   const std::int64_t n = grid.n_cells();
   const auto dims = static_cast<std::int32_t>(n);
   file.put(columns.dims, std::span(&dims, 1));
@@ -66,10 +66,10 @@ void put(parallel::Executor& exec, netcdf::Writer& file, const Columns& columns,
     return grid.vertex_lon_lat[at(row[std::min(k, row.size() - 1)])];
   };
   put_rows<double>(exec, file, {columns.centre_lat, n}, [&](std::int64_t cell, Reals out) {
-    out[0] = lat_deg(grid.cell_lon_lat[at(cell)]);
+    out[0] = corner_lat_deg(grid.cell_lon_lat[at(cell)]);
   });
   put_rows<double>(exec, file, {columns.centre_lon, n}, [&](std::int64_t cell, Reals out) {
-    out[0] = lon_deg(grid.cell_lon_lat[at(cell)]);
+    out[0] = corner_lon_deg(grid.cell_lon_lat[at(cell)]);
   });
   put_rows<std::int32_t>(exec, file, {columns.mask, n},
                          [](std::int64_t, std::span<std::int32_t> out) { out[0] = 1; });
@@ -79,10 +79,10 @@ void put(parallel::Executor& exec, netcdf::Writer& file, const Columns& columns,
     out[0] = factor * grid.cell_area_m2[at(cell)];
   });
   put_rows<double>(exec, file, {columns.corner_lat, n, width}, [&](std::int64_t cell, Reals out) {
-    for (std::size_t k = 0; k < width; ++k) out[k] = lat_deg(corner(cell, k));
+    for (std::size_t k = 0; k < width; ++k) out[k] = corner_lat_deg(corner(cell, k));
   });
   put_rows<double>(exec, file, {columns.corner_lon, n, width}, [&](std::int64_t cell, Reals out) {
-    for (std::size_t k = 0; k < width; ++k) out[k] = lon_deg(corner(cell, k));
+    for (std::size_t k = 0; k < width; ++k) out[k] = corner_lon_deg(corner(cell, k));
   });
 }
 
@@ -164,7 +164,7 @@ void write_scrip(const std::string& path, const Grid& grid, const Provenance& pr
   parallel::Executor alone(1);
   target.fill([&](const std::string& temporary) {
     netcdf::Writer file(temporary, options.format);
-    const Columns columns = define(file, grid, width);
+    const CellColumns columns = define(file, grid, width);
     file.attribute(netcdf::kGlobal, "title", "Voronoi cells");
     file.attribute(netcdf::kGlobal, "Conventions", "SCRIP");
     file.attribute(netcdf::kGlobal, "source", "delos " + provenance.version);

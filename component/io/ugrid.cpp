@@ -20,8 +20,6 @@ constexpr std::int64_t kBlockRows = 65536;
 constexpr std::int32_t kStartIndex = 1;  // as the Fortran readers count
 constexpr std::int32_t kFill = -1;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 double lat_deg(const LonLat& place) { return std::clamp(place.lat_rad * kDegPerRad, -90.0, 90.0); }
 
 /// In (-180, 180].

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "the files are little-
 
 constexpr std::uint8_t kTriangle = 5, kPolygon = 7;  // VTK's codes of shapes
 
-struct DataArray {
+struct ArrayToWrite {
   const char* section;  ///< FieldData, PointData, CellData, Points, Cells
   const char* name;
   const char* type;
@@ -76,13 +76,13 @@ class VtuFile {
   void put_section(ByteStream& out, const char* section) const;
 
   std::int64_t n_points_, n_cells_;
-  std::vector<DataArray> arrays_;
+  std::vector<ArrayToWrite> arrays_;
 };
 
 void VtuFile::put_section(ByteStream& out, const char* section) const {
   out << "<" << section << ">\n";
   std::uint64_t offset = 0;
-  for (const DataArray& array : arrays_) {
+  for (const ArrayToWrite& array : arrays_) {
     if (std::string_view(section) == array.section) {
       out << "<DataArray type=\"" << array.type << "\" Name=\"" << array.name << "\"";
       if (array.n_components > 1) {
@@ -100,7 +100,7 @@ void VtuFile::put_section(ByteStream& out, const char* section) const {
 
 void VtuFile::write(const std::string& path) const {
   std::uint64_t bytes = 4096;  // the header
-  for (const DataArray& array : arrays_) bytes += array.bytes;
+  for (const ArrayToWrite& array : arrays_) bytes += array.bytes;
   AtomicFile target(path, bytes);
   target.fill([&](const std::string& temporary) {
     ByteStream out(temporary);
@@ -112,7 +112,7 @@ void VtuFile::write(const std::string& path) const {
       put_section(out, section);
     }
     out << "</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-    for (const DataArray& array : arrays_) {
+    for (const ArrayToWrite& array : arrays_) {
       out.raw(array.bytes);
       array.put(out);
     }
@@ -121,8 +121,6 @@ void VtuFile::write(const std::string& path) const {
   });
   target.commit();
 }
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
 

@@ -11,7 +11,7 @@
 namespace delos {
 namespace {
 
-constexpr std::int64_t kTriangle = 5, kPolygon = 7, kQuad = 9;  // VTK's codes of shapes
+constexpr std::int64_t kTriangleCode = 5, kPolygonCode = 7, kQuadCode = 9;  // VTK's codes of shapes
 
 struct Tag {
   std::string_view name;
@@ -266,7 +266,7 @@ Ragged<Index> faces_of(const VtuDocument& file, std::int64_t n_points, std::int6
   Array<std::int64_t> offsets(1, 0);
   for (std::size_t cell = 0; cell < n; ++cell) {
     const bool is_face =
-        types[cell] == kTriangle || types[cell] == kPolygon || types[cell] == kQuad;
+        types[cell] == kTriangleCode || types[cell] == kPolygonCode || types[cell] == kQuadCode;
     DELOS_CHECK(is_face, ErrorKind::input, file.path(), ": cell ", cell,
                 " (from 0) has VTK's type ", types[cell],
                 "; only triangles (5), polygons (7) and quadrangles (9) can be read.");

@@ -14,8 +14,6 @@ using netcdf::DimensionId;
 using netcdf::Type;
 using netcdf::VariableId;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// The variables of one grid while it is written: names end in _a (source) or _b (target).
 struct GridVariables {
   VariableId dims, lat, lon, corner_lat, corner_lon, mask, area, fraction;

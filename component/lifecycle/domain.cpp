@@ -10,8 +10,6 @@
 namespace delos {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// Land polygons are drawn on a table finer than the cells, and than maps of the world.
 double polygon_resolution_rad(const Grid& grid) {
   constexpr double kFinest = 1.0 / 60.0, kCoarsest = 0.25;  // degrees

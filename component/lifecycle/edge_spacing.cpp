@@ -13,8 +13,6 @@ namespace {
 
 constexpr std::int64_t kEdgeGrain = 4096;  // about 0.1 ms of look-ups
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 std::array<Index, 2> sorted(Index a, Index b) { return {std::min(a, b), std::max(a, b)}; }
 
 std::array<Index, 2> ends_of(const Mesh& mesh, Index tri, int k, EdgeEnds ends) {

@@ -27,8 +27,6 @@ using netcdf::Type;
 // What missing becomes: the library's own default for doubles and floats.
 constexpr double kFill = 9.9692099683868690e+36;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 Grid closed_grid(Context& context, const std::string& path) {
   GridFile file = read_grid_file(context, path);
   DELOS_CHECK(

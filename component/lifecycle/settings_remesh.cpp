@@ -91,8 +91,8 @@ void visit_types(Visit&& visit) {
 #undef DELOS_LAW_KEYS
 }
 
-SolutionSource read_source(const ConfigNode& node, const std::string& path, ConfigNode& effective,
-                           double radius_m) {
+SolutionSource read_solution_source(const ConfigNode& node, const std::string& path,
+                                    ConfigNode& effective, double radius_m) {
   const ConfigNode* const type = node.find("type");
   DELOS_CHECK(type != nullptr && type->kind == ConfigNode::Kind::scalar, ErrorKind::config,
               node.where, " ", path, ": a source is a map with a `type`, e.g. {type: eke}.");
@@ -185,7 +185,7 @@ std::optional<RemeshSettings> read_remesh(MapReader& root, double radius_m) {
   read_policy(keys, out.policy);
   out.statistics = read_statistics(keys.map("statistics", {"window", "length"}));
   keys.each("sources", [&](const ConfigNode& node, const std::string& path, ConfigNode& effective) {
-    out.sources.push_back(read_source(node, path, effective, radius_m));
+    out.sources.push_back(read_solution_source(node, path, effective, radius_m));
   });
   if (out.sources.empty()) {
     keys.fail("sources", "at least one source is needed, e.g. [{type: eke}].");

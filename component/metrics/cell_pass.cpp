@@ -4,8 +4,6 @@
 namespace delos::metrics {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Degree of a vertex and the area of its Voronoi cell: the fan of the ball centres around it,
 // signed.
 void measure_cell(const Subject& subject, const Workspace& work, Index vertex, Index first,

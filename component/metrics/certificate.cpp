@@ -12,8 +12,6 @@ namespace {
 
 using metrics::Subject;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 void check_finite(const char* name, const Extreme& extreme) {
   DELOS_CHECK(std::isfinite(extreme.value) && std::isfinite(extreme.where.lon_rad) &&
                   std::isfinite(extreme.where.lat_rad) && extreme.id != kNone,

@@ -13,8 +13,6 @@ namespace {
 // surface ball by more than this share of its squared radius; less is rounding of the centre.
 constexpr double kBallTolerance = 1e-8;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Side k of triangle `left`, from a to b, with its triangle on the left and the other on the right.
 struct Side {
   Index left, right;

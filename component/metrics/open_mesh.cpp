@@ -15,8 +15,6 @@ namespace {
 constexpr std::size_t kMaxDefects = 20;  // that are told of one kind
 constexpr double kRightAngleDeg = 90.0;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// One side of a triangle, its lower end first.
 struct Side {
   Index low, high, tri;

@@ -12,8 +12,6 @@ namespace {
 using metrics::Best;
 using metrics::Subject;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Turns the winners of the passes into places a person can find.
 struct Places {
   const Subject& subject;

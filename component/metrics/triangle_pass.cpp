@@ -12,8 +12,6 @@ namespace {
 // is on the side to 1e-9 of its length.
 constexpr double kRightCosine = 1e-9;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 Vec3 ball_centre(const Ellipsoid& surface, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 centre = surface.ball_centre(a, b, c);
   return centre.allFinite() && centre.squaredNorm() > 0.0 ? centre : surface.project(a);

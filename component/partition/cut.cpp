@@ -9,8 +9,6 @@
 namespace delos {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// What both sides of an exchange are made from: (neighbour, local id) in this order.
 struct Entry {
   Index neighbour, id;

@@ -11,8 +11,6 @@
 namespace delos {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 void check(const Grid& grid, const PartitionOptions& options) {
   DELOS_CHECK(options.n_parts >= 1, ErrorKind::config, "n_parts = ", options.n_parts,
               ": must be >= 1.");

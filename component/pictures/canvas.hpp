@@ -19,6 +19,11 @@ struct Colour {
   double r = 0.0, g = 0.0, b = 0.0, a = 1.0;
 };
 
+// What all pictures share.
+inline constexpr Colour kPaper{1.0, 1.0, 1.0, 1.0};
+inline constexpr Colour kInk{0.12, 0.13, 0.16, 1.0};
+inline constexpr Colour kCoast{0.10, 0.10, 0.12, 0.85};
+
 /// The colour at `t` of the way from one to the other.
 Colour mix(const Colour& from, const Colour& to, double t);
 

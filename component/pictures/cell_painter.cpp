@@ -14,7 +14,7 @@ namespace {
 constexpr Colour kLand{0.80, 0.79, 0.76, 1.0};
 // Part of the land's grey over the colour of the cell.
 constexpr double kLandCover = 0.84;
-constexpr Colour kInk{0.05, 0.06, 0.10, 1.0};
+constexpr Colour kOutline{0.05, 0.06, 0.10, 1.0};
 constexpr Colour kLightInk{0.95, 0.95, 1.0, 1.0};
 // Perceived brightness (Rec. 601 weights) below which lines are light.
 constexpr double kDark = 0.42;
@@ -106,7 +106,7 @@ void Outlines::draw(Canvas& canvas) const {
   for (std::size_t level = 0; level < kLevels; ++level) {
     const double strength = static_cast<double>(level + 1) / static_cast<double>(kLevels);
     const double opacity = 0.06 + 0.40 * strength, width = 0.55 + 0.35 * strength;
-    canvas.segments(dark_[level], {{kInk.r, kInk.g, kInk.b, opacity}, width});
+    canvas.segments(dark_[level], {{kOutline.r, kOutline.g, kOutline.b, opacity}, width});
     canvas.segments(light_[level], {{kLightInk.r, kLightInk.g, kLightInk.b, 0.8 * opacity}, width});
   }
 }

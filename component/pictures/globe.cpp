@@ -14,10 +14,7 @@ namespace delos::pictures {
 
 namespace {
 
-constexpr Colour kPaper{1.0, 1.0, 1.0, 1.0};
-constexpr Colour kCoast{0.10, 0.10, 0.12, 0.85};
 constexpr Colour kGraticule{1.0, 1.0, 1.0, 0.30};
-constexpr Colour kRim{0.12, 0.13, 0.16, 1.0};
 // Samples along each side of a pixel: smooths the borders between cells and the rim.
 constexpr int kSamples = 2;
 // The rim is drawn this much darker than the middle, so that the picture reads as a ball.
@@ -148,7 +145,7 @@ void draw_rim(Canvas& canvas, const Ellipsoid& surface, const Projection& look) 
     const Vec3 on_sphere = std::cos(angle) * first + std::sin(angle) * second;
     rim.push_back(look.pixel(surface.radii().cwiseProduct(on_sphere)));
   }
-  canvas.line(rim, {kRim, 1.6});
+  canvas.line(rim, {kInk, 1.6});
 }
 
 void draw_side(Canvas& canvas, const Grid& grid, const CellPainter& painter, const LandMask* land,

@@ -13,8 +13,6 @@ namespace delos::pictures {
 
 namespace {
 
-constexpr Colour kPaper{1.0, 1.0, 1.0, 1.0};
-constexpr Colour kInk{0.12, 0.13, 0.16, 1.0};
 constexpr Colour kGridLine{0.12, 0.13, 0.16, 0.13};
 constexpr Colour kBar{0.24, 0.47, 0.62, 1.0};
 constexpr Colour kMean{0.13, 0.55, 0.33, 1.0};

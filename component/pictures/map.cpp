@@ -14,11 +14,8 @@ namespace delos::pictures {
 
 namespace {
 
-constexpr Colour kPaper{1.0, 1.0, 1.0, 1.0};
-constexpr Colour kInk{0.12, 0.13, 0.16, 1.0};
-constexpr Colour kCoast{0.10, 0.10, 0.12, 0.85};
-constexpr Colour kGraticule{1.0, 1.0, 1.0, 0.28};
-constexpr int kSamples = 2;
+constexpr Colour kMapGraticule{1.0, 1.0, 1.0, 0.28};
+constexpr int kMapSamples = 2;
 // An edge near a pole bends on this map; it is drawn in pieces no wider than this.
 constexpr double kPiece_deg = 2.0;
 constexpr int kMostPieces = 64;
@@ -43,17 +40,17 @@ void paint_cells(Canvas& canvas, const Grid& grid, const CellPainter& painter, c
     Index cell = row_start;
     for (int column = 0; column < image.width; ++column) {
       Colour sum{0.0, 0.0, 0.0, 1.0};
-      for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const int over = sample % kSamples, down = sample / kSamples;
-        const double x = frame.box.x + column + (over + 0.5) / kSamples;
-        const double y = frame.box.y + row + (down + 0.5) / kSamples;
+      for (int sample = 0; sample < kMapSamples * kMapSamples; ++sample) {
+        const int over = sample % kMapSamples, down = sample / kMapSamples;
+        const double x = frame.box.x + column + (over + 0.5) / kMapSamples;
+        const double y = frame.box.y + row + (down + 0.5) / kMapSamples;
         const Vec3 p = grid.surface.point(
             {frame.lon_deg(x) * kRadPerDeg, frame.lat_deg(y) * kRadPerDeg}, grid.latitude);
         const Colour colour = painter.colour(p, cell);
         sum = {sum.r + colour.r, sum.g + colour.g, sum.b + colour.b, 1.0};
       }
       if (column == 0) row_start = cell;
-      constexpr double kWeight = 1.0 / (kSamples * kSamples);
+      constexpr double kWeight = 1.0 / (kMapSamples * kMapSamples);
       image.at(column, row) = {kWeight * sum.r, kWeight * sum.g, kWeight * sum.b, 1.0};
     }
   }
@@ -112,7 +109,7 @@ void draw_lines(Canvas& canvas, const LandMask* land, const Frame& frame) {
   for (int lat = -60; lat <= 60; lat += 30) {
     graticule.push_back({frame.pixel(-180, lat), frame.pixel(180, lat)});
   }
-  canvas.segments(graticule, {kGraticule, 1.0});
+  canvas.segments(graticule, {kMapGraticule, 1.0});
   if (land == nullptr) return;
   std::vector<Segment> coast;
   for (const Segment& piece : land->coastline()) {

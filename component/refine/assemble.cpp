@@ -12,8 +12,6 @@ constexpr std::int64_t kTileGrain = 1;     // a tile is some ten thousand triang
 constexpr std::int64_t kSideGrain = 4096;  // half-segments a task: about a quarter millisecond
 constexpr double kRoom = 1.03;             // the count is within 3 % of the expected one
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 }  // namespace
 
 /// Where a tile's part of the mesh begins.

@@ -14,8 +14,6 @@ constexpr int kFirstSteps = 16;         // of the h-mass integral along a chord;
 constexpr double kMostMass = 0.25;      // no step has more than this of an edge, or
 constexpr int kMostSteps = 65536;       // there are so many
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // Points along the arc no farther apart than kLongestChord, without the first.
 void add_knots(const Ellipsoid& surface, const Vec3& from, const Vec3& to,
                std::vector<Vec3>& knots) {

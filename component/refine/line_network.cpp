@@ -19,8 +19,6 @@ constexpr double kLongestArc = -0.985;  // cosine of 170 degrees: beyond, the wa
 constexpr double kSharpAngle_deg = 60.0;
 constexpr double kLeastAngle_deg = 10.0;  // below it triangles would be slivers for many cells
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 using Arc = LineNetwork::Arc;
 
 // An arc, or a single point as one from a node to itself, with a box around it.

@@ -7,7 +7,7 @@
 namespace delos {
 namespace {
 
-constexpr std::size_t kWidth = NeighbourRows::kWidth;
+constexpr std::size_t kRowWidth = NeighbourRows::kWidth;
 
 double density(double spacing) {
   const double per_area = 1.0 / (spacing * spacing);
@@ -38,9 +38,9 @@ Vec3 cell_centroid(const Ellipsoid& surface, const Array<Vertex>& vertices,
   const Vertex& p = vertices[static_cast<std::size_t>(vertex)];
   const Vec3 origin = p.position();
   const auto& row = rows.row(place);
-  if (row[kWidth - 1] != vertex && rows.overflow_of(vertex) != nullptr) return p.position();
+  if (row[kRowWidth - 1] != vertex && rows.overflow_of(vertex) != nullptr) return p.position();
   const auto n = static_cast<std::size_t>(std::find(row.begin(), row.end(), vertex) - row.begin());
-  std::array<Corner, kWidth> corners;
+  std::array<Corner, kRowWidth> corners;
   for (std::size_t j = 0; j < n; ++j) {
     const Vertex& a = vertices[static_cast<std::size_t>(row[j])];
     const Vertex& b = vertices[static_cast<std::size_t>(row[j + 1 == n ? 0 : j + 1])];

@@ -11,10 +11,8 @@ constexpr double kActiveBand = 0.02;  // what is this near to the worst pulls at
 constexpr double kLeastGain = 1e-4;   // of the score, for a move to count
 constexpr std::array<double, 5> kSteps = {0.16, 0.08, 0.04, 0.02, 0.01};  // times the spacing
 constexpr double kSpringStep = 0.15;  // of the spring force, per sweep
-// a_f = kAreaLength * area / S, S the sum of the squared sides.
-const double kAreaLength = 4.0 * std::sqrt(3.0);
-
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
+// a_f = kSidesAreaLength * area / S, S the sum of the squared sides.
+const double kSidesAreaLength = 4.0 * std::sqrt(3.0);
 
 // What surrounds one vertex, in an array of its own: ring vertex i and the next make triangle i.
 struct Ring {
@@ -119,7 +117,7 @@ class Climber {
     const Vec3 twice_area_gradient = (normal / twice_area).cross(base);
     const Vec3 squares_gradient = 2.0 * (2.0 * p - a - b);
     Gradients out;
-    out.area_length = (0.5 * kAreaLength / squares) *
+    out.area_length = (0.5 * kSidesAreaLength / squares) *
                       (twice_area_gradient - (twice_area / squares) * squares_gradient);
     const std::array<Vec3, 3> product = {2.0 * p - a - b, base, -base};
     for (std::size_t k = 0; k < 3; ++k) {

@@ -11,8 +11,6 @@
 namespace delos {
 namespace {
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 // The triangles around the free vertices, each once, in the order of first sight.
 std::vector<Index> triangles_around(const Mesh& mesh, const TriangleAtVertex& at_vertex,
                                     const std::vector<Index>& free_vertices) {

@@ -42,8 +42,6 @@ constexpr int kHostileRounds = 16;
 //   unless even that is a crowd.
 constexpr double kSafeQuality = 0.885;
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double score(const Mesh& mesh, Index tri) {
   const Triangle& t = mesh.triangle(tri);
   const std::array<const Vertex*, 3> v = {&mesh.vertices[at(t.vertex[0])],

@@ -18,8 +18,6 @@ constexpr double kBalanced = 2e-15;
 // would level out slowly.
 constexpr double kStretch = 1.5;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Summed in two parts: a plain sum is not good to the last place.
 double total(parallel::Executor& exec, const Array<double>& areas) {
   const auto part = [&](std::int64_t begin, std::int64_t end) {

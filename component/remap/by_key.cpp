@@ -11,8 +11,6 @@ constexpr std::int64_t kEntryBlock = 65536;  // entries of a task, 0.2 ms
 constexpr std::int64_t kRange = 16384;       // keys of a range: their counts fit the nearest cache
 constexpr std::int64_t kScanGrain = 65536;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 struct Keyed {
   Index key;
   std::int64_t entry;

@@ -14,8 +14,6 @@ constexpr std::int64_t kSourceGrain = 2048;  // about 0.2 ms of stencils
 // across it: the source is transferred to first order.
 constexpr double kInLine = 1e-6;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // Normal equations of min sum (g . d_k - (f_k - f_j))^2 in the plane.
 void fit(const Tiling& source, const Overlaps& overlaps, std::int64_t j, std::span<Vec3> row) {
   const auto neighbours = source.neighbours(j);

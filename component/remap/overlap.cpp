@@ -27,8 +27,6 @@ constexpr double kLookAgain = 1e-8;
 // What may be missing at last: sides are straight to rounding, also after looking again.
 constexpr double kLargestGap = 1e-6;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 struct Found {
   Index source;
   double area;

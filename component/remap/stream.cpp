@@ -22,8 +22,6 @@ constexpr double kArrived = 1e-13;
 // Vertices nearer than this (radii) are the same one.
 constexpr double kSame = 1e-15;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // min over psi of sum (dc / dv) (flux + psi[v1] - psi[v0])^2.
 struct Projection {
   parallel::Executor& exec;

@@ -8,8 +8,6 @@ namespace {
 
 constexpr std::int64_t kTriangleGrain = 4096;  // about 0.1 ms
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 void check_closed(const Grid& grid) {
   DELOS_CHECK(is_closed(grid), ErrorKind::input, "a grid of ", grid.n_cells(),
               " cells has a border, but transfer needs grids that cover the surface: carry fields "

@@ -8,9 +8,7 @@
 namespace delos::remap {
 namespace {
 
-constexpr std::int64_t kGrain = 4096;  // sources or targets of a few overlaps each, 0.1 ms
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
+constexpr std::int64_t kOverlapGrain = 4096;  // sources or targets of a few overlaps each, 0.1 ms
 
 struct Range {
   double low, high;
@@ -36,13 +34,14 @@ struct Rows {
 Array<Range> ranges(parallel::Executor& exec, const GradientStencils& stencils,
                     std::span<const double> field) {
   Array<Range> result(field.size());
-  parallel::for_index(exec, static_cast<std::int64_t>(field.size()), kGrain, [&](std::int64_t j) {
-    Range range{field[at(j)], field[at(j)]};
-    for (auto k = stencils.offsets[at(j)]; k < stencils.offsets[at(j) + 1]; ++k) {
-      range.add(field[at(stencils.neighbour[at(k)])]);
-    }
-    result[at(j)] = range;
-  });
+  parallel::for_index(
+      exec, static_cast<std::int64_t>(field.size()), kOverlapGrain, [&](std::int64_t j) {
+        Range range{field[at(j)], field[at(j)]};
+        for (auto k = stencils.offsets[at(j)]; k < stencils.offsets[at(j) + 1]; ++k) {
+          range.add(field[at(stencils.neighbour[at(k)])]);
+        }
+        result[at(j)] = range;
+      });
   return result;
 }
 
@@ -121,18 +120,18 @@ void assure_sum(parallel::Executor& exec, const Overlaps& overlaps, std::span<co
   const auto clipped = [&](std::int64_t i) {
     return std::clamp(target[at(i)], bounds[at(i)].low, bounds[at(i)].high);
   };
-  const double missing = parallel::sum(exec, overlaps.n_targets, kGrain, [&](std::int64_t i) {
-    return area(i) * (target[at(i)] - clipped(i));
-  });
+  const double missing =
+      parallel::sum(exec, overlaps.n_targets, kOverlapGrain,
+                    [&](std::int64_t i) { return area(i) * (target[at(i)] - clipped(i)); });
   const auto limit = [&](std::int64_t i) {
     return missing > 0.0 ? bounds[at(i)].high : bounds[at(i)].low;
   };
-  const double room = parallel::sum(exec, overlaps.n_targets, kGrain, [&](std::int64_t i) {
+  const double room = parallel::sum(exec, overlaps.n_targets, kOverlapGrain, [&](std::int64_t i) {
     return area(i) * (limit(i) - clipped(i));
   });
   // The transfer of first order is in range with the same mass, so there is room for all of it.
   const double part = room == 0.0 ? 0.0 : std::min(1.0, missing / room);
-  parallel::for_index(exec, overlaps.n_targets, kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, overlaps.n_targets, kOverlapGrain, [&](std::int64_t i) {
     const double value = clipped(i);
     target[at(i)] =
         std::clamp(value + part * (limit(i) - value), bounds[at(i)].low, bounds[at(i)].high);
@@ -201,14 +200,14 @@ Weights Transfer::weights(parallel::Executor& exec, Order order) const {
   if (order == Order::first) return first_order_weights(exec, overlaps_);
   const Rows rows{overlaps_};
   const std::int64_t n = overlaps_.n_targets;
-  std::vector<std::vector<Weight>> blocks(at((n + kGrain - 1) / kGrain));
+  std::vector<std::vector<Weight>> blocks(at((n + kOverlapGrain - 1) / kOverlapGrain));
   Weights weights;
   weights.n_columns = overlaps_.n_sources;
   weights.offsets.resize(at(n) + 1);
   weights.offsets[0] = 0;
-  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t end) {
+  parallel::for_range(exec, n, kOverlapGrain, [&](std::int64_t begin, std::int64_t end) {
     std::vector<Weight> row;
-    auto& block = blocks[at(begin / kGrain)];
+    auto& block = blocks[at(begin / kOverlapGrain)];
     for (std::int64_t i = begin; i < end; ++i) {
       second_order_row(rows, stencils_, i, row);
       weights.offsets[at(i) + 1] = static_cast<std::int64_t>(row.size());
@@ -218,9 +217,9 @@ Weights Transfer::weights(parallel::Executor& exec, Order order) const {
   for (std::int64_t i = 0; i < n; ++i) weights.offsets[at(i) + 1] += weights.offsets[at(i)];
   weights.column.resize(at(weights.offsets.back()));
   weights.value.resize(at(weights.offsets.back()));
-  parallel::for_range(exec, n, kGrain, [&](std::int64_t begin, std::int64_t) {
+  parallel::for_range(exec, n, kOverlapGrain, [&](std::int64_t begin, std::int64_t) {
     std::size_t k = at(weights.offsets[at(begin)]);
-    for (const Weight& weight : blocks[at(begin / kGrain)]) {
+    for (const Weight& weight : blocks[at(begin / kOverlapGrain)]) {
       weights.column[k] = weight.column;
       weights.value[k++] = weight.value;
     }
@@ -247,10 +246,10 @@ void Transfer::apply(parallel::Executor& exec, std::span<const double> source,
   if (n_levels == 1) return apply_level(exec, source, target, options);
   Array<double> from(at(overlaps_.n_sources)), to(at(overlaps_.n_targets));
   for (std::int64_t level = 0; level < n_levels; ++level) {
-    parallel::for_index(exec, overlaps_.n_sources, kGrain,
+    parallel::for_index(exec, overlaps_.n_sources, kOverlapGrain,
                         [&](std::int64_t j) { from[at(j)] = source[at(j * n_levels + level)]; });
     apply_level(exec, from, to, options);
-    parallel::for_index(exec, overlaps_.n_targets, kGrain,
+    parallel::for_index(exec, overlaps_.n_targets, kOverlapGrain,
                         [&](std::int64_t i) { target[at(i * n_levels + level)] = to[at(i)]; });
   }
 }
@@ -267,7 +266,7 @@ void Transfer::apply_level(parallel::Executor& exec, std::span<const double> sou
   };
   const bool is_assured = is_limited && options.limiter == Limiter::assured_sum;
   Array<Range> bounds(is_assured ? target.size() : 0);
-  parallel::for_index(exec, overlaps_.n_targets, kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, overlaps_.n_targets, kOverlapGrain, [&](std::int64_t i) {
     const double value = row_value(rows, i, source, slopes);
     target[at(i)] = value;
     if (!is_first && !is_limited) return;
@@ -294,12 +293,12 @@ void Transfer::apply_valid(parallel::Executor& exec, std::span<const double> sou
   const bool is_second = options.order == Order::second;
   if (is_second) slopes = limited_gradients(exec, source, options);
   // A missing neighbour has made the gradient NaN.
-  parallel::for_index(exec, overlaps_.n_sources, kGrain, [&](std::int64_t j) {
+  parallel::for_index(exec, overlaps_.n_sources, kOverlapGrain, [&](std::int64_t j) {
     if (!slopes[at(j)].allFinite()) slopes[at(j)] = Vec3::Zero();
   });
   const bool is_limited = is_second && options.limiter == Limiter::gradient;
   const Array<Range> near = is_limited ? ranges(exec, stencils_, source) : Array<Range>{};
-  parallel::for_index(exec, overlaps_.n_targets, kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, overlaps_.n_targets, kOverlapGrain, [&](std::int64_t i) {
     target[at(i)] = valid_value({overlaps_}, i, source, slopes, least_valid);
     if (!is_limited || std::isnan(target[at(i)])) return;
     Range range{target[at(i)], target[at(i)]};
@@ -320,7 +319,7 @@ Array<Vec3> Transfer::limited_gradients(parallel::Executor& exec, std::span<cons
   Array<Vec3> slopes = gradients(exec, stencils_, source);
   if (options.limiter != Limiter::gradient) return slopes;
   const Array<Range> near = ranges(exec, stencils_, source);
-  parallel::for_index(exec, overlaps_.n_sources, kGrain, [&](std::int64_t j) {
+  parallel::for_index(exec, overlaps_.n_sources, kOverlapGrain, [&](std::int64_t j) {
     const auto begin = at(by_source_.offsets[at(j)]), end = at(by_source_.offsets[at(j) + 1]);
     const Range room{near[at(j)].low - source[at(j)], near[at(j)].high - source[at(j)]};
     slopes[at(j)] *= part_in_range(overlaps_, {by_source_.entry.data() + begin, end - begin},

@@ -8,12 +8,10 @@
 namespace delos::remap {
 namespace {
 
-constexpr std::int64_t kGrain = 2048;  // about 0.2 ms
+constexpr std::int64_t kVectorGrain = 2048;  // about 0.2 ms
 
 // Normals that all point one way (determinant against the square of the trace) fix no vector.
 constexpr double kOneWay = 1e-9;
-
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
 Vec3 fit_cell(const Grid& grid, std::int64_t cell, std::span<const double> normal) {
   const TangentFrame plane(grid.surface.normal(grid.cell_position[at(cell)]));
@@ -44,7 +42,7 @@ Vec3 edge_normal(const Grid& grid, std::int64_t edge) {
 Array<Vec3> cell_velocities(parallel::Executor& exec, const Grid& grid,
                             std::span<const double> normal) {
   Array<Vec3> result(at(grid.n_cells()));
-  parallel::for_index(exec, grid.n_cells(), kGrain,
+  parallel::for_index(exec, grid.n_cells(), kVectorGrain,
                       [&](std::int64_t i) { result[at(i)] = fit_cell(grid, i, normal); });
   return result;
 }
@@ -52,7 +50,7 @@ Array<Vec3> cell_velocities(parallel::Executor& exec, const Grid& grid,
 Array<double> normal_velocities(parallel::Executor& exec, const Grid& grid,
                                 std::span<const Vec3> cells) {
   Array<double> result(at(grid.n_edges()));
-  parallel::for_index(exec, grid.n_edges(), kGrain, [&](std::int64_t edge) {
+  parallel::for_index(exec, grid.n_edges(), kVectorGrain, [&](std::int64_t edge) {
     const auto [c, d] = grid.cells_on_edge[at(edge)];
     result[at(edge)] = 0.5 * edge_normal(grid, edge).dot(cells[at(c)] + cells[at(d)]);
   });
@@ -65,14 +63,14 @@ Array<Vec3> transfer_vectors(parallel::Executor& exec, const Transfer& transfer,
   Array<Vec3> result(at(target.n_cells()));
   const auto n_sources = static_cast<std::int64_t>(source.size());
   for (int axis = 0; axis < 3; ++axis) {
-    parallel::for_index(exec, n_sources, kGrain,
+    parallel::for_index(exec, n_sources, kVectorGrain,
                         [&](std::int64_t j) { from[at(j)] = source[at(j)][axis]; });
     transfer.apply(exec, from, to, options);
-    parallel::for_index(exec, target.n_cells(), kGrain,
+    parallel::for_index(exec, target.n_cells(), kVectorGrain,
                         [&](std::int64_t i) { result[at(i)][axis] = to[at(i)]; });
   }
   const Overlaps& overlaps = transfer.overlaps();
-  parallel::for_index(exec, target.n_cells(), kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, target.n_cells(), kVectorGrain, [&](std::int64_t i) {
     if (overlaps.is_copy(i)) return;  // in its plane already, and the same to the bit
     const Vec3 up = target.surface.normal(target.cell_position[at(i)]);
     result[at(i)] -= up * up.dot(result[at(i)]);
@@ -83,7 +81,7 @@ Array<Vec3> transfer_vectors(parallel::Executor& exec, const Transfer& transfer,
 Array<double> divergence(parallel::Executor& exec, const Grid& grid,
                          std::span<const double> normal) {
   Array<double> result(at(grid.n_cells()));
-  parallel::for_index(exec, grid.n_cells(), kGrain, [&](std::int64_t i) {
+  parallel::for_index(exec, grid.n_cells(), kVectorGrain, [&](std::int64_t i) {
     double outflow = 0.0;
     for (const Index edge : grid.edges_on_cell.row(i)) {
       const double flux = normal[at(edge)] * grid.vertex_distance_m[at(edge)];

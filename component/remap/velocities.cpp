@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::int64_t kEdgeGrain = 4096;  // about 0.1 ms
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The source's edge that a target's edge is, and the sign of its value there; kNone where one of
 // the cells has changed.
 struct Twin {

@@ -11,8 +11,6 @@ namespace {
 constexpr double kOutside = 1e-15;
 constexpr std::int64_t kStarts = 512;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The neighbour across a side that p is outside of; kNone when p is inside.
 Index step_towards(const Tiling& tiling, Index polygon, const Vec3& p) {
   const auto corners = tiling.corners(polygon);

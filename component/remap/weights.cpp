@@ -11,8 +11,6 @@ namespace {
 
 constexpr std::int64_t kRowGrain = 4096;  // rows of a few weights each, 0.1 ms
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 double row_value(const Weights& weights, std::int64_t row, std::span<const double> source) {
   const std::int64_t begin = weights.offsets[at(row)], end = weights.offsets[at(row) + 1];
   std::int64_t largest = begin;

@@ -29,7 +29,7 @@ void check_edge(const RegionEdge& edge) {
               " deg: it must be >= 0");
 }
 
-double square(double x) { return x * x; }
+double squared(double x) { return x * x; }
 
 /// Spacing at the distance d (rad) outside the edge; d <= 0 is inside.
 double spacing_at(const RegionEdge& edge, double d) {
@@ -65,7 +65,7 @@ Reach::Reach(const RegionEdge& edge, double radius_rad) {
   // little about the angle.
   constexpr double kMargin = 1.0e-9, kFarthest = 3.0;
   const double angle = radius_rad + widths * edge.width_rad + kMargin;
-  if (angle < kFarthest) chord2_ = square(2.0 * elementary::sin(0.5 * angle)) * (1.0 + kMargin);
+  if (angle < kFarthest) chord2_ = squared(2.0 * elementary::sin(0.5 * angle)) * (1.0 + kMargin);
 }
 
 /// Great-circle distance to a piece of a meridian.

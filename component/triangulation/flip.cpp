@@ -7,8 +7,6 @@
 namespace delos {
 namespace {
 
-std::size_t slot(int k) { return static_cast<std::size_t>(k); }
-
 /// The quadrilateral o, u, p, v, counter-clockwise, with diagonal (u, v) = side `side` of `tri`.
 struct Quadrilateral {
   Index o, u, p, v;
@@ -19,14 +17,14 @@ struct Quadrilateral {
 Quadrilateral quadrilateral(const Mesh& mesh, Index tri, int side) {
   const Triangle& t = mesh.triangle(tri);
   Quadrilateral q{};
-  q.o = t.vertex[slot(side)];
-  q.u = t.vertex[slot(next_corner(side))];
-  q.v = t.vertex[slot(previous_corner(side))];
-  q.neighbour = t.neighbour[slot(side)];
+  q.o = t.vertex[at(side)];
+  q.u = t.vertex[at(next_corner(side))];
+  q.v = t.vertex[at(previous_corner(side))];
+  q.neighbour = t.neighbour[at(side)];
   const Triangle& n = mesh.triangle(q.neighbour);
   q.neighbour_side = side_of_edge(n, q.v, q.u);
   DELOS_ASSERT(q.neighbour_side >= 0);
-  q.p = n.vertex[slot(q.neighbour_side)];
+  q.p = n.vertex[at(q.neighbour_side)];
   return q;
 }
 
@@ -35,7 +33,7 @@ void relink(Mesh& mesh, Index tri, Index from, Index to, Index neighbour) {
   Triangle& t = mesh.triangle(tri);
   const int side = side_of_edge(t, from, to);
   DELOS_ASSERT(side >= 0);
-  t.neighbour[slot(side)] = neighbour;
+  t.neighbour[at(side)] = neighbour;
 }
 
 /// Whether all angles are below a right angle by a margin far above rounding. Two such triangles
@@ -63,10 +61,10 @@ void flip(Mesh& mesh, Index tri, int side) {
   const Quadrilateral q = quadrilateral(mesh, tri, side);
   Triangle& t = mesh.triangle(tri);
   Triangle& n = mesh.triangle(q.neighbour);
-  const Index beyond_vo = t.neighbour[slot(next_corner(side))];
-  const Index beyond_ou = t.neighbour[slot(previous_corner(side))];
-  const Index beyond_up = n.neighbour[slot(next_corner(q.neighbour_side))];
-  const Index beyond_pv = n.neighbour[slot(previous_corner(q.neighbour_side))];
+  const Index beyond_vo = t.neighbour[at(next_corner(side))];
+  const Index beyond_ou = t.neighbour[at(previous_corner(side))];
+  const Index beyond_up = n.neighbour[at(next_corner(q.neighbour_side))];
+  const Index beyond_pv = n.neighbour[at(previous_corner(q.neighbour_side))];
   relink(mesh, beyond_vo, q.o, q.v, q.neighbour);
   relink(mesh, beyond_up, q.p, q.u, tri);
   t = {{q.o, q.u, q.p}, {beyond_up, q.neighbour, beyond_ou}};
@@ -101,7 +99,7 @@ std::int64_t restore_delaunay(Mesh& mesh, const Ellipsoid& surface, std::span<co
     for (int side = 0; side < 3; ++side) {
       if (!is_illegal(mesh, surface, tri, side) || !can_flip(mesh, tri, side)) continue;
       if (!surface.is_sphere() && n_flips >= most_flips) return n_flips;
-      const Index neighbour = mesh.triangle(tri).neighbour[slot(side)];
+      const Index neighbour = mesh.triangle(tri).neighbour[at(side)];
       flip(mesh, tri, side);
       ++n_flips;
       stack.insert(stack.end(), {neighbour, tri});

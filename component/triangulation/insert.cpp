@@ -12,8 +12,6 @@
 namespace delos {
 namespace {
 
-std::size_t slot(Index i) { return static_cast<std::size_t>(i); }
-
 int orientation(const Mesh& mesh, Index a, Index b, Index c) {
   return predicates::orient_origin(mesh.position(a), mesh.position(b), mesh.position(c));
 }
@@ -21,32 +19,32 @@ int orientation(const Mesh& mesh, Index a, Index b, Index c) {
 void replace_neighbour(Triangle& tri, Index from, Index to, Index neighbour) {
   const int side = side_of_edge(tri, from, to);
   DELOS_ASSERT(side >= 0);
-  tri.neighbour[slot(side)] = neighbour;
+  tri.neighbour[at(side)] = neighbour;
 }
 
 /// The triangle at the vertex that lies clockwise of `tri`, seen from outside: across the side
 /// from the vertex to the corner after it.
 Index turn(const Mesh& mesh, Index tri, Index vertex) {
   const Triangle& t = mesh.triangle(tri);
-  return t.neighbour[slot(previous_corner(corner_at(t, vertex)))];
+  return t.neighbour[at(previous_corner(corner_at(t, vertex)))];
 }
 
 int degree(const Mesh& mesh, Index tri, Index vertex) {
   int n = 0;
-  Index at = tri;
+  Index here = tri;
   do {
-    at = turn(mesh, at, vertex);
+    here = turn(mesh, here, vertex);
     ++n;
-  } while (at != tri);
+  } while (here != tri);
   return n;
 }
 
 bool are_joined(const Mesh& mesh, Index tri, Index vertex, Index other) {
-  Index at = tri;
+  Index here = tri;
   do {
-    if (corner_at(mesh.triangle(at), other) >= 0) return true;
-    at = turn(mesh, at, vertex);
-  } while (at != tri);
+    if (corner_at(mesh.triangle(here), other) >= 0) return true;
+    here = turn(mesh, here, vertex);
+  } while (here != tri);
   return false;
 }
 
@@ -54,26 +52,26 @@ bool are_joined(const Mesh& mesh, Index tri, Index vertex, Index other) {
 /// vertex in `tri`.
 bool lower_degree(Mesh& mesh, Index& tri, Index vertex, std::vector<Index>& touched) {
   const Index start = tri;
-  Index at = start;
+  Index here = start;
   do {
-    // Triangle `at` = (vertex, w, x); its side to w is shared with (vertex, y, w). The ear at w is
-    // (y, w, x): it must be positive, and what is left to the vertex at least not negative.
-    const Triangle& t = mesh.triangle(at);
+    // Triangle `here` = (vertex, w, x); its side to w is shared with (vertex, y, w). The ear at w
+    // is (y, w, x): it must be positive, and what is left to the vertex at least not negative.
+    const Triangle& t = mesh.triangle(here);
     const int corner = corner_at(t, vertex);
-    const Index w = t.vertex[slot(next_corner(corner))];
-    const Index x = t.vertex[slot(previous_corner(corner))];
+    const Index w = t.vertex[at(next_corner(corner))];
+    const Index x = t.vertex[at(previous_corner(corner))];
     const int side = previous_corner(corner);
-    const Index y = opposite_vertex(mesh, at, side);
+    const Index y = opposite_vertex(mesh, here, side);
     if (orientation(mesh, y, w, x) > 0 && orientation(mesh, vertex, y, x) >= 0 &&
-        !are_joined(mesh, at, x, y)) {
-      const Index neighbour = t.neighbour[slot(side)];
-      flip(mesh, at, side);
-      touched.insert(touched.end(), {at, neighbour});
-      tri = corner_at(mesh.triangle(at), vertex) >= 0 ? at : neighbour;
+        !are_joined(mesh, here, x, y)) {
+      const Index neighbour = t.neighbour[at(side)];
+      flip(mesh, here, side);
+      touched.insert(touched.end(), {here, neighbour});
+      tri = corner_at(mesh.triangle(here), vertex) >= 0 ? here : neighbour;
       return true;
     }
-    at = turn(mesh, at, vertex);
-  } while (at != start);
+    here = turn(mesh, here, vertex);
+  } while (here != start);
   return false;
 }
 
@@ -91,14 +89,14 @@ Detached remove_degree_three(Mesh& mesh, Index tri, Index vertex) {
   std::sort(fan.begin(), fan.end());
   const Triangle wx = mesh.triangle(fan[0]);
   const int corner = corner_at(wx, vertex);
-  const Index w = wx.vertex[slot(next_corner(corner))];
-  const Index x = wx.vertex[slot(previous_corner(corner))];
-  const Triangle xz = mesh.triangle(wx.neighbour[slot(next_corner(corner))]);
-  const Triangle zw = mesh.triangle(wx.neighbour[slot(previous_corner(corner))]);
-  const Index z = xz.vertex[slot(previous_corner(corner_at(xz, vertex)))];
-  const Index beyond_wx = wx.neighbour[slot(corner)];
-  const Index beyond_xz = xz.neighbour[slot(corner_at(xz, vertex))];
-  const Index beyond_zw = zw.neighbour[slot(corner_at(zw, vertex))];
+  const Index w = wx.vertex[at(next_corner(corner))];
+  const Index x = wx.vertex[at(previous_corner(corner))];
+  const Triangle xz = mesh.triangle(wx.neighbour[at(next_corner(corner))]);
+  const Triangle zw = mesh.triangle(wx.neighbour[at(previous_corner(corner))]);
+  const Index z = xz.vertex[at(previous_corner(corner_at(xz, vertex)))];
+  const Index beyond_wx = wx.neighbour[at(corner)];
+  const Index beyond_xz = xz.neighbour[at(corner_at(xz, vertex))];
+  const Index beyond_zw = zw.neighbour[at(corner_at(zw, vertex))];
   replace_neighbour(mesh.triangle(beyond_xz), z, x, fan[0]);
   replace_neighbour(mesh.triangle(beyond_zw), w, z, fan[0]);
   mesh.triangle(fan[0]) = {{z, w, x}, {beyond_wx, beyond_xz, beyond_zw}};
@@ -112,10 +110,10 @@ Detached remove_degree_three(Mesh& mesh, Index tri, Index vertex) {
 bool can_remove(const Mesh& mesh, Index tri, Index vertex) {
   const Triangle& t = mesh.triangle(tri);
   const int corner = corner_at(t, vertex);
-  const Index w = t.vertex[slot(next_corner(corner))];
-  const Index x = t.vertex[slot(previous_corner(corner))];
-  const Triangle& next = mesh.triangle(t.neighbour[slot(next_corner(corner))]);
-  const Index z = next.vertex[slot(previous_corner(corner_at(next, vertex)))];
+  const Index w = t.vertex[at(next_corner(corner))];
+  const Index x = t.vertex[at(previous_corner(corner))];
+  const Triangle& next = mesh.triangle(t.neighbour[at(next_corner(corner))]);
+  const Index z = next.vertex[at(previous_corner(corner_at(next, vertex)))];
   return orientation(mesh, z, w, x) > 0 && opposite_vertex(mesh, tri, corner) != z;
 }
 
@@ -143,8 +141,8 @@ Detached detach(Mesh& mesh, const Ellipsoid& surface, Index vertex, Index hint) 
 void move_triangle(Mesh& mesh, Index from, Index to) {
   const Triangle t = mesh.triangle(from);
   for (int k = 0; k < 3; ++k) {
-    replace_neighbour(mesh.triangle(t.neighbour[slot(k)]), t.vertex[slot(previous_corner(k))],
-                      t.vertex[slot(next_corner(k))], to);
+    replace_neighbour(mesh.triangle(t.neighbour[at(k)]), t.vertex[at(previous_corner(k))],
+                      t.vertex[at(next_corner(k))], to);
   }
   mesh.triangle(to) = t;
 }
@@ -209,9 +207,9 @@ bool remove_vertex(Mesh& mesh, const Ellipsoid& surface, Index vertex, Index hin
     renamed = star(mesh, last, out.kept);
     for (const Index tri : renamed) {
       Triangle& t = mesh.triangle(tri);
-      t.vertex[slot(corner_at(t, last))] = vertex;
+      t.vertex[at(corner_at(t, last))] = vertex;
     }
-    mesh.vertices[slot(vertex)] = mesh.vertices[slot(last)];
+    mesh.vertices[at(vertex)] = mesh.vertices[at(last)];
   }
   mesh.vertices.pop_back();
   for (const Index dead : {out.dead[1], out.dead[0]}) {
@@ -230,16 +228,16 @@ bool remove_vertex(Mesh& mesh, const Ellipsoid& surface, Index vertex, Index hin
 std::int64_t remove_vertices(Mesh& mesh, const Ellipsoid& surface, std::span<const Index> vertices,
                              std::vector<Index>& new_id) {
   std::vector<char> is_gone(mesh.vertices.size(), 0);
-  const std::vector<Index> at = triangle_at_vertex(mesh);
+  const std::vector<Index> one_of = triangle_at_vertex(mesh);
   Index n_left = mesh.n_vertices();
   Index alive = 0;
   for (const Index vertex : vertices) {
     if (n_left <= 4) break;
-    const Index hint = at[slot(vertex)];
+    const Index hint = one_of[at(vertex)];
     const bool is_alive = mesh.triangle(hint).vertex[0] != kNone;
     const Detached out = detach(mesh, surface, vertex, is_alive ? hint : alive);
     if (!out.done) continue;
-    is_gone[slot(vertex)] = 1;
+    is_gone[at(vertex)] = 1;
     alive = out.kept;
     --n_left;
   }
@@ -247,23 +245,23 @@ std::int64_t remove_vertices(Mesh& mesh, const Ellipsoid& surface, std::span<con
   new_id.assign(mesh.vertices.size(), kNone);
   Index n_vertices = 0;
   for (Index v = 0; v < mesh.n_vertices(); ++v) {
-    if (is_gone[slot(v)]) continue;
-    new_id[slot(v)] = n_vertices;
-    mesh.vertices[slot(n_vertices++)] = mesh.vertices[slot(v)];
+    if (is_gone[at(v)]) continue;
+    new_id[at(v)] = n_vertices;
+    mesh.vertices[at(n_vertices++)] = mesh.vertices[at(v)];
   }
   const auto n_removed = static_cast<std::int64_t>(mesh.n_vertices() - n_vertices);
-  mesh.vertices.resize(slot(n_vertices));
+  mesh.vertices.resize(at(n_vertices));
   std::vector<Index> new_tri(mesh.triangles.size(), kNone);
   Index n_triangles = 0;
   for (Index tri = 0; tri < mesh.n_triangles(); ++tri) {
     if (mesh.triangle(tri).vertex[0] == kNone) continue;
-    new_tri[slot(tri)] = n_triangles;
+    new_tri[at(tri)] = n_triangles;
     mesh.triangle(n_triangles++) = mesh.triangle(tri);
   }
-  mesh.triangles.resize(slot(n_triangles));
+  mesh.triangles.resize(at(n_triangles));
   for (Triangle& t : mesh.triangles) {
-    for (Index& v : t.vertex) v = new_id[slot(v)];
-    for (Index& neighbour : t.neighbour) neighbour = new_tri[slot(neighbour)];
+    for (Index& v : t.vertex) v = new_id[at(v)];
+    for (Index& neighbour : t.neighbour) neighbour = new_tri[at(neighbour)];
   }
   return n_removed;
 }

@@ -12,8 +12,6 @@
 namespace delos {
 namespace {
 
-std::size_t slot(Index i) { return static_cast<std::size_t>(i); }
-
 class Validator {
  public:
   Validator(const Mesh& mesh, const Ellipsoid& surface, const ValidateOptions& options)
@@ -88,7 +86,7 @@ class Validator {
     std::vector<Index> order(mesh_.vertices.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](Index v) {
-      const Vertex& p = mesh_.vertices[slot(v)];
+      const Vertex& p = mesh_.vertices[at(v)];
       return std::array<double, 3>{p.x, p.y, p.z};
     };
     std::sort(order.begin(), order.end(), [&](Index a, Index b) {
@@ -107,11 +105,11 @@ class Validator {
     for (Index tri = 0; tri < mesh_.n_triangles() && !is_full(); ++tri) {
       const Triangle& t = mesh_.triangle(tri);
       for (int k = 0; k < 3; ++k) {
-        const Index from = t.vertex[slot(next_corner(k))];
-        const Index to = t.vertex[slot(previous_corner(k))];
-        const Index other = t.neighbour[slot(k)];
+        const Index from = t.vertex[at(next_corner(k))];
+        const Index to = t.vertex[at(previous_corner(k))];
+        const Index other = t.neighbour[at(k)];
         const int back = side_of_edge(mesh_.triangle(other), to, from);
-        if (back >= 0 && mesh_.triangle(other).neighbour[slot(back)] == tri) continue;
+        if (back >= 0 && mesh_.triangle(other).neighbour[at(back)] == tri) continue;
         has_bad_links_ = true;
         add(DefectKind::asymmetric, tri, other, "triangle ", tri, " names triangle ", other,
             " across the side from vertex ", from, " to ", to, ", which does not name it back");
@@ -132,9 +130,9 @@ class Validator {
   }
 
   void check_references() {
-    const std::vector<Index> at = triangle_at_vertex(mesh_);
+    const std::vector<Index> one_of = triangle_at_vertex(mesh_);
     for (Index v = 0; v < mesh_.n_vertices() && !is_full(); ++v) {
-      if (at[slot(v)] == kNone) {
+      if (one_of[at(v)] == kNone) {
         add(DefectKind::unreferenced, v, kNone, "vertex ", v, " is a corner of no triangle");
       }
     }
@@ -152,8 +150,8 @@ class Validator {
       const Triangle& t = mesh_.triangle(stack.back());
       stack.pop_back();
       for (const Index neighbour : t.neighbour) {
-        if (seen[slot(neighbour)]) continue;
-        seen[slot(neighbour)] = 1;
+        if (seen[at(neighbour)]) continue;
+        seen[at(neighbour)] = 1;
         ++n_seen;
         stack.push_back(neighbour);
       }
@@ -168,20 +166,20 @@ class Validator {
   void check_fans() {
     std::vector<Index> n_corners(mesh_.vertices.size(), 0);
     for (const Triangle& t : mesh_.triangles) {
-      for (const Index v : t.vertex) ++n_corners[slot(v)];
+      for (const Index v : t.vertex) ++n_corners[at(v)];
     }
-    const std::vector<Index> at = triangle_at_vertex(mesh_);
+    const std::vector<Index> one_of = triangle_at_vertex(mesh_);
     for (Index v = 0; v < mesh_.n_vertices() && !is_full(); ++v) {
-      if (at[slot(v)] == kNone) continue;
+      if (one_of[at(v)] == kNone) continue;
       Index steps = 0;
-      Index tri = at[slot(v)];
+      Index tri = one_of[at(v)];
       do {
         const Triangle& t = mesh_.triangle(tri);
-        tri = t.neighbour[slot(next_corner(corner_at(t, v)))];
+        tri = t.neighbour[at(next_corner(corner_at(t, v)))];
         ++steps;
-      } while (tri != at[slot(v)] && steps <= n_corners[slot(v)]);
-      if (steps == n_corners[slot(v)]) continue;
-      add(DefectKind::pinched, v, kNone, "the ", n_corners[slot(v)], " triangles at vertex ", v,
+      } while (tri != one_of[at(v)] && steps <= n_corners[at(v)]);
+      if (steps == n_corners[at(v)]) continue;
+      add(DefectKind::pinched, v, kNone, "the ", n_corners[at(v)], " triangles at vertex ", v,
           " are not one fan");
     }
   }
@@ -189,7 +187,7 @@ class Validator {
   void check_delaunay() {
     for (Index tri = 0; tri < mesh_.n_triangles() && !is_full(); ++tri) {
       for (int side = 0; side < 3; ++side) {
-        const Index other = mesh_.triangle(tri).neighbour[slot(side)];
+        const Index other = mesh_.triangle(tri).neighbour[at(side)];
         if (other < tri || !is_illegal(mesh_, surface_, tri, side)) continue;
         add(DefectKind::not_delaunay, tri, other, "the side between triangles ", tri, " and ",
             other, " is not Delaunay");

@@ -17,7 +17,6 @@ double tangential_error(const Ellipsoid& surface, int levels) {
   Context context{exec, monitor};
   const Grid grid = build_grid(context, surface, LatitudeKind::geodetic,
                                samples::bisected_icosahedron(surface, levels));
-  const auto at = [](auto i) { return static_cast<std::size_t>(i); };
   const Vec3 axis(0.3, 0.5, 0.8);
   std::vector<double> normal_speed(at(grid.n_edges())), tangential_speed(at(grid.n_edges()));
   for (std::size_t e = 0; e < normal_speed.size(); ++e) {

@@ -15,8 +15,6 @@ using namespace delos;
 
 namespace {
 
-constexpr auto at = [](auto i) { return static_cast<std::size_t>(i); };
-
 double harmonic_2_2(const Vec3& p) { return 2.0 + (p.x() * p.x() - p.y() * p.y()); }
 
 double harmonic_32_16(const Vec3& p) {

@@ -23,8 +23,6 @@ namespace {
 constexpr std::size_t kTimes = 2, kLevels = 3;
 constexpr double kGap = -99.0;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// Two grids in files, and fields on the first: temperature [time, cells, levels] is 10 + 100 time
 /// + 1000 level, with gaps in the east of level 2; height [cells] is the third coordinate.
 struct Sample {

@@ -16,8 +16,6 @@ using namespace delos;
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// Each cell's part by a throw of dice: every part touches every other, and has holes and islands.
 std::vector<Index> scattered(const Grid& grid, Index n_parts, std::uint64_t seed) {
   std::vector<Index> part(at(grid.n_cells()));

@@ -21,7 +21,6 @@ struct Sums {
 
 // Largest relative misfit of the sums over rows and columns.
 Sums misfit(const remap::Overlaps& overlaps) {
-  const auto at = [](auto i) { return static_cast<std::size_t>(i); };
   std::vector<double> of_source(at(overlaps.n_sources), 0.0);
   Sums sums;
   for (std::int64_t i = 0; i < overlaps.n_targets; ++i) {

@@ -15,8 +15,6 @@ using remap::Order;
 
 namespace {
 
-constexpr auto at = [](auto i) { return static_cast<std::size_t>(i); };
-
 const std::vector<Ellipsoid> kSurfaces{Ellipsoid::sphere(6371220.0), Ellipsoid::wgs84(),
                                        Ellipsoid(Vec3(1.2, 1.0, 0.8) * 6e6, Vec3(10, 20, 30))};
 const std::vector<remap::TransferOptions> kSchemes{{Order::first, Limiter::none},

@@ -12,11 +12,6 @@ using namespace delos;
 
 namespace {
 
-template <class I>
-std::size_t at(I i) {
-  return static_cast<std::size_t>(i);
-}
-
 Grid grid_of_levels(int levels, const Ellipsoid& surface = Ellipsoid::sphere(6371220.0)) {
   return samples::grid_of(surface, samples::bisected_icosahedron(surface, levels));
 }

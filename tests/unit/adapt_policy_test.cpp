@@ -13,8 +13,6 @@ using namespace delos;
 
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 Time day(int n) { return parse_time(Calendar::noleap, "2001-01-01") + TimeInterval::of_days(n); }
 
 PolicyInput input(int day_number, double share) {

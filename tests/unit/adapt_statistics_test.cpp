@@ -16,8 +16,6 @@ namespace {
 
 constexpr double kDay_s = 86400.0;
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 /// Sums of a whole series in long double, in two passes.
 struct TwoPass {
   long double mean = 0.0L, variance = 0.0L;

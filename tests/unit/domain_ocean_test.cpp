@@ -23,8 +23,6 @@ const Ellipsoid kEarth = Ellipsoid::sphere(6371220.0);
 // 2562 cells about 4.5 degrees wide.
 Grid made_grid() { return samples::grid_of(kEarth, samples::shaken(kEarth, 4, 0.08, 3)); }
 
-std::size_t at(Index i) { return static_cast<std::size_t>(i); }
-
 double lat_deg(const Grid& grid, Index cell) {
   return grid.cell_lon_lat[at(cell)].lat_rad * kDegPerRad;
 }

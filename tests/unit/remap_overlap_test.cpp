@@ -13,8 +13,6 @@ using namespace delos;
 
 namespace {
 
-constexpr auto at = [](auto i) { return static_cast<std::size_t>(i); };
-
 /// The same mesh with other numbers and other first corners.
 Mesh renumbered(const Mesh& mesh) {
   const Index n = static_cast<Index>(mesh.n_vertices());

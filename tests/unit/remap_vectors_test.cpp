@@ -10,8 +10,6 @@ using namespace delos;
 
 namespace {
 
-constexpr auto at = [](auto i) { return static_cast<std::size_t>(i); };
-
 struct Setting {
   parallel::Executor exec{2};
   Monitor monitor;

@@ -9,8 +9,6 @@ using namespace delos;
 
 namespace {
 
-constexpr auto at = [](auto i) { return static_cast<std::size_t>(i); };
-
 remap::Weights sample_weights() {
   // 1 . . | .25 . .75 | . .5 .5 | .5 .5 .
   return {3, {0, 1, 3, 5, 7}, {0, 0, 2, 1, 2, 0, 1}, {1.0, 0.25, 0.75, 0.5, 0.5, 0.5, 0.5}};
