@@ -13,17 +13,12 @@ namespace {
 
 constexpr double kFinest_rad = kRadPerDeg / 12.0, kCoarsest_rad = kRadPerDeg;
 /// Rows a task: each is some hundred short walks at least.
-constexpr std::int64_t kRowGrain = 4;
+constexpr std::int64_t kBoxRowGrain = 4;
 constexpr double kTurn_deg = 360.0;
 /// Of a column that repeats the first one, from rounding.
 constexpr double kSame_deg = 1e-6;
 /// The gap over the seam of columns that go round, in steps.
 constexpr double kMaxSeamSteps = 1.5;
-
-template <class I>
-std::size_t at(I i) {
-  return static_cast<std::size_t>(i);
-}
 
 /// Area and area times value of the cells in each node's box; the boxes of a pole are one.
 struct Boxes {
@@ -90,7 +85,7 @@ Raster raster_of_cells(parallel::Executor& exec, const Grid& grid, std::span<con
               " values, the grid has ", grid.n_cells(), " cells");
   LatLonField table = unset_table(resolution_rad);
   const Boxes boxes = fill_boxes(grid, values, table);
-  parallel::for_index(exec, table.n_rows(), kRowGrain, [&](std::int64_t row) {
+  parallel::for_index(exec, table.n_rows(), kBoxRowGrain, [&](std::int64_t row) {
     const auto j = static_cast<Index>(row);
     const bool is_pole = j == 0 || j == table.n_lat_cells;
     Index cell = 0;

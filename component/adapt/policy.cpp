@@ -12,11 +12,6 @@ namespace {
 /// Cells a task; part of the answer of the sums.
 constexpr std::int64_t kCellGrain = 8192;
 
-template <class I>
-std::size_t at(I i) {
-  return static_cast<std::size_t>(i);
-}
-
 struct Areas {
   double all = 0.0, coarse = 0.0, fine = 0.0;
 };

@@ -11,11 +11,6 @@ namespace {
 /// Cells or edges a task: some hundred thousand operations; no result depends on it.
 constexpr std::int64_t kGrain = 2048;
 
-template <class I>
-std::size_t at(I i) {
-  return static_cast<std::size_t>(i);
-}
-
 void check_size(std::size_t n, std::int64_t expected, const char* what) {
   DELOS_CHECK(n == at(expected), ErrorKind::input, "velocities have ", n, " values, the grid has ",
               expected, " ", what);

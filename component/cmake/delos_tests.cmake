@@ -28,6 +28,8 @@ function(delos_tests label)
   list(TRANSFORM linked PREPEND delos_)
   add_executable(${label}_tests ${PROJECT_SOURCE_DIR}/tests/support/main.cpp ${sources})
   delos_target_options(${label}_tests)
+  # What is measured and compared is the library; its tests need not be fast, but soon compiled.
+  target_compile_options(${label}_tests PRIVATE $<$<CONFIG:Release>:-O1>)
   target_include_directories(${label}_tests PRIVATE ${PROJECT_SOURCE_DIR}/tests)
   target_compile_definitions(${label}_tests PRIVATE DELOS_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   target_link_libraries(${label}_tests PRIVATE ${linked} doctest::doctest ${arg_LIBRARIES})

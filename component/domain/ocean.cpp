@@ -11,7 +11,7 @@
 namespace delos::domain {
 namespace {
 
-constexpr std::int64_t kCellGrain = 4096;  // cells; tenths of a millisecond
+constexpr std::int64_t kOceanGrain = 4096;  // cells; tenths of a millisecond
 
 struct Chain {
   const LonLatLine& line;
@@ -74,7 +74,7 @@ void keep_bodies(parallel::Executor& exec, const Grid& grid, const OceanOptions&
               "no cell of the grid is sea: check the sign of the elevation and the wet share that "
               "makes a cell sea.");
   const std::vector<char> is_kept = bodies_kept(grid, bodies, options);
-  parallel::for_index(exec, grid.n_cells(), kCellGrain, [&](std::int64_t cell) {
+  parallel::for_index(exec, grid.n_cells(), kOceanGrain, [&](std::int64_t cell) {
     const Index body = bodies.of_cell[at(cell)];
     sea[at(cell)] = body != kNone && is_kept[at(body)] != 0;
   });
@@ -94,7 +94,7 @@ void count_elements(parallel::Executor& exec, const Grid& ocean, OceanReport& re
   report.n_vertices = ocean.n_vertices();
   report.n_border_edges = std::count_if(ocean.cells_on_edge.begin(), ocean.cells_on_edge.end(),
                                         [](const auto& cells) { return cells[1] == kNone; });
-  report.area_m2 = parallel::sum(exec, ocean.n_cells(), kCellGrain,
+  report.area_m2 = parallel::sum(exec, ocean.n_cells(), kOceanGrain,
                                  [&](std::int64_t cell) { return ocean.cell_area_m2[at(cell)]; });
 }
 
@@ -129,7 +129,7 @@ LatLonField elevation_of(parallel::Executor& exec, const PolygonSet& land, doubl
   LatLonField field = unset_table(resolution_rad);
   const std::vector<char> inside = inside_polygons(exec, land, field);
   parallel::for_index(
-      exec, static_cast<std::int64_t>(inside.size()), kCellGrain,
+      exec, static_cast<std::int64_t>(inside.size()), kOceanGrain,
       [&](std::int64_t i) { field.values[at(i)] = inside[at(i)] != 0 ? 1.0 : -1.0; });
   return field;
 }

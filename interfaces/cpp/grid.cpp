@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <type_traits>
 
+#include "flat.hpp"
 #include "grid_access.hpp"
 #include "io/atomic_file.hpp"
 #include "lifecycle/outputs.hpp"
@@ -12,18 +13,6 @@
 
 namespace delos::api {
 namespace {
-
-/// Rows of plain numbers seen as the numbers.
-template <class Number, class Row>
-std::span<const Number> flat(std::span<const Row> all) {
-  static_assert(std::is_standard_layout_v<Row> && sizeof(Row) % sizeof(Number) == 0);
-  return {reinterpret_cast<const Number*>(all.data()), all.size_bytes() / sizeof(Number)};
-}
-
-template <class Number, class Row>
-std::span<const Number> flat(const Array<Row>& rows) {
-  return flat<Number>(std::span<const Row>(rows));
-}
 
 std::span<const double> flat(const Array<Vec3>& points) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "flat.hpp"
 #include "grid_access.hpp"
 #include "partition/cut.hpp"
 #include "partition/partition.hpp"
@@ -23,14 +24,6 @@ static_assert(static_cast<int>(PartitionMethod::curve) ==
 
 // The first number of a layout; the last digits change with the list of arrays.
 constexpr std::int64_t kLayoutMagic = 0x64656c6f734c4701;
-
-/// Rows of plain numbers seen as the numbers.
-template <class Number, class Row>
-std::span<const Number> flat(const Array<Row>& rows) {
-  static_assert(sizeof(Row) % sizeof(Number) == 0);
-  const std::span<const Row> all(rows);
-  return {reinterpret_cast<const Number*>(all.data()), all.size_bytes() / sizeof(Number)};
-}
 
 template <class Rows>
 std::span<const std::byte> bytes_of(const Rows& rows) {

@@ -216,7 +216,9 @@ TEST_CASE("velocities arrive, and by the stream function they get no divergence"
 }
 
 TEST_CASE("sizes and grids that do not fit a transfer are refused with both generations") {
-  const auto [before, after] = before_and_after();
+  const auto grids = before_and_after();
+  const auto& before = grids.first;
+  const auto& after = grids.second;
   const delos::Transfer transfer(before, after);
   CHECK_NOTHROW(transfer.check(before, after));
   const auto message_of = [](delos::ErrorKind kind, auto&& call) -> std::string {

@@ -17,11 +17,6 @@ namespace {
 constexpr double kRadius_m = 6371220.0;
 const Vec3 kOmega(2e-6, -1e-6, 5e-6);  // 1/s: 30 m/s at the most
 
-template <class I>
-std::size_t at(I i) {
-  return static_cast<std::size_t>(i);
-}
-
 /// Solid rotation about an axis of no symmetry, in m/s.
 Vec3 rotation(const Vec3& p) { return kRadius_m * kOmega.cross(p); }
 

@@ -177,9 +177,7 @@ TEST_CASE("a budget is met within 1 % whatever is kept") {
     int cells;
     std::string more;
   };
-  const std::vector<Case> cases = {{1500, ""},    {900, ""},    {1100, ""}, {1300, ""},
-                                   {1500, ""},    {2000, ""},   {3000, ""}, {1500, "  tau: 1.1\n"},
-                                   {1300, fixed}, {2500, fixed}};
+  const std::vector<Case> cases = {{900, ""}, {1100, "  tau: 1.1\n"}, {1300, fixed}, {1500, ""}};
   for (const Case& one : cases) {
     CAPTURE(one.cells);
     CAPTURE(one.more);
@@ -191,7 +189,7 @@ TEST_CASE("a budget is met within 1 % whatever is kept") {
     const auto n = static_cast<double>(model.component->product()->mesh.n_vertices());
     CHECK(std::abs(n / one.cells - 1.0) <= 0.01);
     // The second remesh, of a graded grid that has moved, too.
-    for (int day = 10; day < 40; ++day) model.run_day(day, day < 20 ? 0.4 : 0.25);
+    for (int day = 10; day < 20; ++day) model.run_day(day, 0.3);
     const auto again = static_cast<double>(model.component->product()->mesh.n_vertices());
     CHECK(std::abs(again / one.cells - 1.0) <= 0.01);
   }
