@@ -43,10 +43,14 @@ void Executor::run_blocks(std::int64_t n_blocks, const std::function<void(std::i
     for (std::int64_t block = 0; block < n_blocks; ++block) body(block);
     return;
   }
+  // A context of its own, so that a host that cancels its tasks does not cut ours short, and all
+  // threads round as this one does, not as the host's tasks around us. Made before a thread of the
+  // arena may take over.
+  tbb::task_group_context context(
+      tbb::task_group_context::isolated,
+      tbb::task_group_context::default_traits | tbb::task_group_context::fp_settings);
   impl_->arena.execute([&] {
-    // A context of its own, so that a host that cancels its tasks does not cut ours short, and
-    // isolation, so that a waiting thread does not pick up unrelated work of the host.
-    tbb::task_group_context context(tbb::task_group_context::isolated);
+    // So that a waiting thread does not pick up unrelated work of the host.
     tbb::this_task_arena::isolate([&] {
       tbb::parallel_for(
           tbb::blocked_range<std::int64_t>(0, n_blocks, 1),

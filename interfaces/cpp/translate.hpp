@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// The one place where the engine's errors become public ones.
+// The way into the engine: the one place where its errors become public ones, and where the host's
+// floating point is put aside.
 #include "core/error.hpp"
+#include "core/floating_point.hpp"
 #include "delos/error.hpp"
 
 namespace delos::api {
@@ -18,10 +20,12 @@ static_assert(static_cast<int>(ErrorKind::cancelled) ==
 static_assert(static_cast<int>(ErrorKind::internal) ==
               static_cast<int>(delos::ErrorKind::internal));
 
-/// function(), with the engine's errors rethrown as public ones. std::bad_alloc and a host's own
-/// exceptions from a callback pass through as they are.
+/// function() in the default floating-point environment, with the engine's errors rethrown as
+/// public ones. std::bad_alloc and a host's own exceptions from a callback pass through as they
+/// are.
 template <class Function>
 auto translated(Function&& function) -> decltype(function()) {
+  const DefaultFloatingPoint own;
   try {
     return function();
   } catch (const delos::Error& error) {
