@@ -67,6 +67,13 @@ module delos_binding
       integer(c_int) :: status
     end function
 
+    function flag_getter(handle, flag) bind(c) result(status)
+      import :: c_ptr, c_int
+      type(c_ptr), value :: handle
+      integer(c_int), intent(inout) :: flag
+      integer(c_int) :: status
+    end function
+
     function text_getter(handle, text) bind(c) result(status)
       import :: c_ptr, c_int
       type(c_ptr), value :: handle

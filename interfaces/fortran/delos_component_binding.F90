@@ -3,11 +3,11 @@
 module delos_component_binding
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_int, c_int32_t, c_int64_t, c_null_ptr, &
     c_ptr
-  use delos_binding, only: count_getter, handle_call, path_call, text_getter
+  use delos_binding, only: count_getter, flag_getter, handle_call, path_call, text_getter
   implicit none
   public
   private :: c_char, c_double, c_int, c_int32_t, c_int64_t, c_null_ptr, c_ptr
-  private :: count_getter, handle_call, path_call, text_getter
+  private :: count_getter, flag_getter, handle_call, path_call, text_getter
 
   integer, parameter :: DELOS_LOCATION_CELL = 0, DELOS_LOCATION_EDGE = 1, &
     DELOS_LOCATION_VERTEX = 2, DELOS_LOCATION_LAT_LON = 3, DELOS_LOCATION_GRID = 4
@@ -18,13 +18,6 @@ module delos_component_binding
   end type
 
   abstract interface
-    function flag_getter(handle, flag) bind(c) result(status)
-      import :: c_ptr, c_int
-      type(c_ptr), value :: handle
-      integer(c_int), intent(inout) :: flag
-      integer(c_int) :: status
-    end function
-
     function alarm_flag_getter(clock, id, flag) bind(c) result(status)
       import :: c_ptr, c_int
       type(c_ptr), value :: clock

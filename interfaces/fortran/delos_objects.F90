@@ -6,7 +6,8 @@ module delos_objects
   use delos_binding
   implicit none
   private
-  public :: delos_object, delos_view, from_c, to_c, renewed, report_status, count_of, text_of
+  public :: delos_object, delos_view, from_c, to_c, renewed, report_status, count_of, &
+    number_of, text_of
 
   ! A handle of the C layer in a context of its own. The parts are for the modules of this folder.
   type, abstract :: delos_object
@@ -118,6 +119,17 @@ contains
     integer(c_int64_t) :: n
     n = 0
     call report_status(getter(handle, n), ierr)
+  end function
+
+  function number_of(handle, getter, ierr) result(number)
+    type(c_ptr), intent(in) :: handle
+    procedure(flag_getter) :: getter
+    integer, intent(out), optional :: ierr
+    integer :: number
+    integer(c_int) :: value
+    value = 0
+    call report_status(getter(handle, value), ierr)
+    number = int(value)
   end function
 
   function text_of(handle, getter, ierr) result(string)

@@ -4,7 +4,7 @@
 module delos_mpi_components
   use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_int64_t, c_null_ptr, c_ptr
   use delos_binding, only: DELOS_SUCCESS
-  use delos_components, only: delos_clock
+  use delos_clocks, only: delos_clock
   use delos_mpi_component_binding
   use delos_mpi_grids, only: delos_mpi_grid
   use delos_mpi_objects, only: delos_mpi_object
