@@ -13,6 +13,7 @@
 #include "delos/generate.hpp"   // IWYU pragma: export
 #include "delos/grid.hpp"       // IWYU pragma: export
 #include "delos/partition.hpp"  // IWYU pragma: export
+#include "delos/services.hpp"   // IWYU pragma: export
 #include "delos/state.hpp"      // IWYU pragma: export
 #include "delos/time.hpp"       // IWYU pragma: export
 #include "delos/transfer.hpp"   // IWYU pragma: export
