@@ -30,6 +30,16 @@ std::span<const std::byte> bytes_of(const Rows& rows) {
   return std::as_bytes(std::span(rows));
 }
 
+/// Work of each cell; empty = the same.
+std::vector<double> work_of(const Product& product, const PartitionOptions& options) {
+  if (!options.cell_weight.empty() || options.work == CellWork::cells) return options.cell_weight;
+  std::vector<double> layers = cell_weights(product.layers);
+  DELOS_CHECK(options.work == CellWork::automatic || !layers.empty(), delos::ErrorKind::config,
+              "parts by wet layers were asked for, but the grid has no layers of an ocean: add a "
+              "section layers of kind z_level to the configuration.");
+  return layers;
+}
+
 /// The surface in metres, as a Grid shows it.
 struct Surface {
   std::array<double, 3> radii_m, centre_m;
@@ -175,15 +185,16 @@ LocalGrid LocalGrid::with_layout(const std::array<std::int64_t, kLayoutSize>& la
 struct Partition::Impl {
   Impl(const Grid& of, const PartitionOptions& options)
       : grid(of),
-        part_of_cell(parts(*GridAccess::product(of).grid, options)),
+        part_of_cell(parts(GridAccess::product(of), options)),
         cutter(*GridAccess::product(of).grid, part_of_cell,
                {static_cast<Index>(options.n_parts), options.halo_layers}) {}
-  static std::vector<Index> parts(const delos::Grid& grid, const PartitionOptions& options) {
+  static std::vector<Index> parts(const Product& product, const PartitionOptions& options) {
     // A cut costs little beside the grid: no threads are started for it.
     parallel::Executor exec(1);
-    return delos::partition(exec, grid,
-                            {options.n_parts, static_cast<delos::PartitionMethod>(options.method),
-                             options.cell_weight});
+    const std::vector<double> work = work_of(product, options);
+    return delos::partition(
+        exec, *product.grid,
+        {options.n_parts, static_cast<delos::PartitionMethod>(options.method), work});
   }
   Grid grid;
   std::vector<Index> part_of_cell;

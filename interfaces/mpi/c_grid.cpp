@@ -42,6 +42,9 @@ Options options_of(const delos_mpi_options* given) {
   out.method = from.method == DELOS_MPI_KWAY    ? delos::PartitionMethod::kway
                : from.method == DELOS_MPI_CURVE ? delos::PartitionMethod::curve
                                                 : delos::PartitionMethod::automatic;
+  out.work = from.work == DELOS_MPI_WORK_CELLS    ? delos::CellWork::cells
+             : from.work == DELOS_MPI_WORK_LAYERS ? delos::CellWork::layers
+                                                  : delos::CellWork::automatic;
   if (from.cell_weight != nullptr) {
     out.cell_weight = [from](const delos::Grid& grid) { return weights(from, grid); };
   }

@@ -14,6 +14,7 @@ module delos_mpi_binding
     integer(c_int) :: n_threads = 0, root = 0, halo_layers = 0, method = 0
     type(c_funptr) :: cell_weight = c_null_funptr
     type(c_ptr) :: user_data = c_null_ptr
+    integer(c_int) :: work = 0
   end type
 
   abstract interface

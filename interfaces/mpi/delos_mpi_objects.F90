@@ -12,9 +12,12 @@ module delos_mpi_objects
   integer, parameter, public :: DELOS_MPI_CELL = 0, DELOS_MPI_EDGE = 1, DELOS_MPI_VERTEX = 2
   ! How cells are shared out: automatic is METIS's k-way method where delos has it, else the curve.
   integer, parameter, public :: DELOS_MPI_AUTOMATIC = 0, DELOS_MPI_KWAY = 1, DELOS_MPI_CURVE = 2
+  ! What a cell counts: automatic is its wet layers where the grid has them, else each the same.
+  integer, parameter, public :: DELOS_MPI_WORK_AUTOMATIC = 0, DELOS_MPI_WORK_CELLS = 1, &
+    DELOS_MPI_WORK_LAYERS = 2
 
   abstract interface
-    ! The work of each cell, e.g. its wet layers, from lon_lat (2, n_cells) in radians; called on
+    ! The work of each cell from lon_lat (2, n_cells) in radians; called on
     ! the generating process. 0, or another number to fail.
     function delos_mpi_weight(n_cells, lon_lat, weight, user_data) bind(c) result(status)
       import :: c_double, c_int, c_int64_t, c_ptr
@@ -41,20 +44,22 @@ contains
 
   ! For what is made next; without an argument: the default (threads as configured, root 0, one halo
   ! layer). root and halo_layers must be the same everywhere.
-  subroutine set_options(self, threads, root, halo_layers, method)
+  subroutine set_options(self, threads, root, halo_layers, method, work)
     class(delos_mpi_object), intent(inout) :: self
-    integer, intent(in), optional :: threads, root, halo_layers, method
+    integer, intent(in), optional :: threads, root, halo_layers, method, work
     self%options%n_threads = 0
     self%options%root = 0
     self%options%halo_layers = 1
     self%options%method = DELOS_MPI_AUTOMATIC
+    self%options%work = DELOS_MPI_WORK_AUTOMATIC
     if (present(threads)) self%options%n_threads = int(threads, c_int)
     if (present(root)) self%options%root = int(root, c_int)
     if (present(halo_layers)) self%options%halo_layers = int(halo_layers, c_int)
     if (present(method)) self%options%method = int(method, c_int)
+    if (present(work)) self%options%work = int(work, c_int)
   end subroutine
 
-  ! The work of the cells, for what is made next.
+  ! The work of the cells, for what is made next, in the place of `work`.
   subroutine set_weight(self, weight)
     class(delos_mpi_object), intent(inout) :: self
     procedure(delos_mpi_weight) :: weight

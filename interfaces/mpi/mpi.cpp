@@ -96,8 +96,11 @@ LocalGrid hand_out_all(const Communicator& ranks, Partition& partition) {
 }
 
 Partition partition_of(const Grid& grid, int n_parts, const Options& options) {
-  PartitionOptions how{
-      .n_parts = n_parts, .method = options.method, .halo_layers = options.halo_layers};
+  PartitionOptions how{.n_parts = n_parts,
+                       .method = options.method,
+                       .halo_layers = options.halo_layers,
+                       .cell_weight = {},
+                       .work = options.work};
   if (options.cell_weight) {
     how.cell_weight = options.cell_weight(grid);
     if (how.cell_weight.empty()) {

@@ -4,7 +4,13 @@
 #include <algorithm>
 #include <cstring>
 #include <delos/delos.hpp>
+#include <fstream>
+#include <iterator>
 #include <numeric>
+#include <string>
+#include <vector>
+
+#include "support/temporary_folder.hpp"
 
 using delos::Location;
 
@@ -70,6 +76,39 @@ TEST_CASE("a part is the same at the other end of a message") {
   CHECK(same(part.edges_on_edge(), other.edges_on_edge()));
   CHECK(same(part.kite_area_m2(), other.kite_area_m2()));
   CHECK(same(part.send_ids(Location::vertex), other.send_ids(Location::vertex)));
+}
+
+TEST_CASE("cells count their wet layers where there are some, as in the files") {
+  const delos::testing::TemporaryFolder folder;
+  const auto config = delos::Config::from_text(R"(
+generator: icosahedral
+subdivisions: 12
+layers: {kind: z_level, levels: {shape: uniform, n: 30, depth: 6000 m}}
+output: {name: a, formats: [mpas], partitions: [3]}
+)");
+  const delos::Grid grid = delos::generate(config, {.threads = 1});
+  const auto parts = [&](delos::CellWork work) {
+    const delos::Partition partition(grid, {.n_parts = 3, .work = work});
+    return std::vector<std::int32_t>(partition.part_of_cell().begin(),
+                                     partition.part_of_cell().end());
+  };
+  static_cast<void>(grid.write_outputs(folder.file("out")));
+  std::ifstream file(folder.file("out/a.graph.info.part.3"));
+  const std::vector<std::int32_t> written{std::istream_iterator<std::int32_t>(file), {}};
+  CHECK(parts(delos::CellWork::layers) == written);
+  CHECK(parts(delos::CellWork::automatic) == written);
+  CHECK(parts(delos::CellWork::cells) != written);
+  const delos::Grid plain = small_grid();
+  CHECK(
+      same(delos::Partition(plain, {.n_parts = 3}).part_of_cell(),
+           delos::Partition(plain, {.n_parts = 3, .work = delos::CellWork::cells}).part_of_cell()));
+  try {
+    const delos::Partition refused(plain, {.n_parts = 3, .work = delos::CellWork::layers});
+    FAIL("layers of a grid without any were taken");
+  } catch (const delos::Error& error) {
+    CHECK(error.kind() == delos::ErrorKind::config);
+    CHECK(std::string(error.what()).find("section layers") != std::string::npos);
+  }
 }
 
 TEST_CASE("what is no part of a grid is refused") {

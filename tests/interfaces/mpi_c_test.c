@@ -112,6 +112,10 @@ int main(int argc, char** argv) {
   options.cell_weight = failing;
   check_failure(delos_mpi_generate_text(MPI_COMM_WORLD, kSmall, NULL, &options, &grid), &grid,
                 DELOS_ERROR_INPUT, "returned 17");
+  options.cell_weight = NULL;
+  options.work = DELOS_MPI_WORK_LAYERS;
+  check_failure(delos_mpi_generate_text(MPI_COMM_WORLD, kSmall, NULL, &options, &grid), &grid,
+                DELOS_ERROR_CONFIG, "section layers");
   check_failure(delos_mpi_generate_file(MPI_COMM_WORLD, "/nowhere.yaml", NULL, &grid), &grid,
                 DELOS_ERROR_INPUT, "/nowhere.yaml");
   check_failure(delos_mpi_generate_file(MPI_COMM_WORLD, NULL, NULL, &grid), &grid,

@@ -42,6 +42,11 @@ program mpi_fortran_test
   call check_fields()
   other = grid
   call check(other%n_local(DELOS_MPI_CELL) == 0, "an assigned object stays empty")
+  call other%set_options(work=DELOS_MPI_WORK_LAYERS)
+  call other%generate_from_text(MPI_COMM_WORLD, SMALL, ierr=ierr)
+  call check(ierr == DELOS_ERROR_CONFIG .and. index(other%message(), "section layers") > 0, &
+             "there are no layers to count: "//other%message())
+  call other%destroy()
 
   call grid%generate(MPI_COMM_WORLD, "/nowhere.yaml", ierr)
   call check(ierr == DELOS_ERROR_INPUT, "a missing file is an input error")

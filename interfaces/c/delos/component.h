@@ -16,7 +16,8 @@
  *
  * A call in the wrong order is DELOS_ERROR_STATE, whose text says which call is expected; a phase
  * that is done already does nothing when it is repeated; what fails changes nothing. Times and
- * intervals are ISO 8601: "2000-02-29T06:30:00", "P1Y2M10DT2H30M". Flags are 0 or 1.
+ * intervals are ISO 8601: "2000-02-29T06:30:00", "P1Y2M10DT2H30M"; one that can't be read or does
+ * not exist is DELOS_ERROR_CONFIG. Flags are 0 or 1.
  */
 #include <delos/delos.h>
 
@@ -37,15 +38,18 @@ DELOS_C_API int delos_clock_create(delos_context* context, const char* calendar,
                                    const char* step, delos_clock** clock);
 /* NULL is allowed. */
 DELOS_C_API int delos_clock_destroy(delos_clock* clock);
-/* After start and not before the current time; NULL = none. */
+/* After start and not before the current time, else DELOS_ERROR_CONFIG; NULL = none. */
 DELOS_C_API int delos_clock_set_stop(delos_clock* clock, const char* stop);
-/* Forward; may have months. */
+/* Of all later steps: forward, else DELOS_ERROR_CONFIG; may have months. */
 DELOS_C_API int delos_clock_set_step(delos_clock* clock, const char* step);
-/* One step, then all alarms are checked. Beyond stop, too. */
+/* One step, then all alarms are checked. Beyond stop, too; DELOS_ERROR_CONFIG beyond the range of
+ * years. */
 DELOS_C_API int delos_clock_advance(delos_clock* clock);
 /* Whether stop is reached or passed. */
 DELOS_C_API int delos_clock_is_done(const delos_clock* clock, int* is_done);
+/* Steps since start. */
 DELOS_C_API int delos_clock_advance_count(const delos_clock* clock, int64_t* n_steps);
+/* "gregorian", "julian", "noleap" or "360_day". */
 DELOS_C_API int delos_clock_calendar(const delos_clock* clock, const char** text);
 DELOS_C_API int delos_clock_start(const delos_clock* clock, const char** text);
 /* "" without one. */
@@ -65,7 +69,8 @@ typedef struct delos_alarm_options {
   int32_t not_sticky;        /* 0: rings until it is switched off */
   int32_t disabled;          /* 1: silent until it is enabled */
 } delos_alarm_options;
-/* One of ring_time and interval must be given. `id` may be NULL. */
+/* One of ring_time and interval must be given; DELOS_ERROR_CONFIG for options that contradict each
+ * other. `id` may be NULL. */
 DELOS_C_API int delos_clock_add_alarm(delos_clock* clock, const delos_alarm_options* options,
                                       int* id);
 DELOS_C_API int delos_clock_n_alarms(const delos_clock* clock, int64_t* n);
@@ -74,13 +79,15 @@ DELOS_C_API int delos_alarm_is_ringing(const delos_clock* clock, int id, int* fl
 DELOS_C_API int delos_alarm_was_ringing(const delos_clock* clock, int id, int* flag);
 DELOS_C_API int delos_alarm_is_enabled(const delos_clock* clock, int id, int* flag);
 DELOS_C_API int delos_alarm_is_sticky(const delos_clock* clock, int id, int* flag);
-/* The next one. */
+/* The next one; of an alarm that rings once its only one, past or not. */
 DELOS_C_API int delos_alarm_ring_time(const delos_clock* clock, int id, const char** text);
 /* Zero when it rings once. */
 DELOS_C_API int delos_alarm_interval(const delos_clock* clock, int id, const char** text);
+/* Rings again, from its next ring time on. */
 DELOS_C_API int delos_alarm_enable(delos_clock* clock, int id);
-/* Also stops the ringing. */
+/* Also stops the ringing; ring times go by unheard. */
 DELOS_C_API int delos_alarm_disable(delos_clock* clock, int id);
+/* Rings from the clock's current time on; DELOS_ERROR_STATE when it is disabled. */
 DELOS_C_API int delos_alarm_ringer_on(delos_clock* clock, int id);
 DELOS_C_API int delos_alarm_ringer_off(delos_clock* clock, int id);
 
@@ -94,18 +101,22 @@ DELOS_C_API int delos_component_create(delos_context* context, const delos_confi
 DELOS_C_API int delos_component_destroy(delos_component* component);
 /* Declares the fields; allocates nothing large, opens no file. */
 DELOS_C_API int delos_component_advertise(delos_component* component);
-/* Makes the grid, as delos_generate; exports have values from here on. */
+/* Makes the grid, as delos_generate, and fails as that; exports have values from here on. */
 DELOS_C_API int delos_component_realize(delos_component* component);
 /* Both. */
 DELOS_C_API int delos_component_initialize(delos_component* component);
 /* From the clock's current time to its next, before the host advances it. The states are the
- * component's own. Exports are then of that time. */
+ * component's own, and a run begins where the last one ended, else DELOS_ERROR_STATE. Exports are
+ * then of that time. With a section `remesh` the imports, as they stand, go into its statistics
+ * (DELOS_ERROR_INPUT for values that are not finite), and at its alarm the grid may be made anew:
+ * compare delos_component_generation. */
 DELOS_C_API int delos_component_run(delos_component* component, const delos_state* import_state,
                                     const delos_state* export_state, const delos_clock* clock);
 /* Gives the grid back. The component may be initialized again, with the next generation. */
 DELOS_C_API int delos_component_finalize(delos_component* component);
 /* Grid, clock with alarms, the component's time, generation and configuration in one file: whole or
- * not at all. After realize, and after the host has advanced its clock. */
+ * not at all. After realize, and after the host has advanced its clock. DELOS_ERROR_OUTPUT names
+ * the path. */
 DELOS_C_API int delos_component_write_restart(const delos_component* component, const char* path,
                                               const delos_clock* clock);
 /* In the place of realize: goes on to the last bit. `clock`, of the same calendar, becomes the one
@@ -132,6 +143,7 @@ DELOS_C_API int delos_component_export_state(delos_component* component, delos_s
 
 /* --- states: items by unique name, in the order of their declaration */
 
+/* Items. */
 DELOS_C_API int delos_state_size(const delos_state* state, int64_t* n);
 /* Of item i, from 0; valid until the component is destroyed. */
 DELOS_C_API int delos_state_name(delos_state* state, int64_t i, const char** name);
@@ -159,12 +171,15 @@ DELOS_C_API int delos_field_name(const delos_field* field, const char** text);
 DELOS_C_API int delos_field_standard_name(const delos_field* field, const char** text);
 DELOS_C_API int delos_field_units(const delos_field* field, const char** text);
 DELOS_C_API int delos_field_long_name(const delos_field* field, const char** text);
+/* One of delos_location. */
 DELOS_C_API int delos_field_location(const delos_field* field, int* location);
+/* Values of each place, which stand together. */
 DELOS_C_API int delos_field_n_components(const delos_field* field, int64_t* n);
 /* Cells or other places; 0 before there is a grid. */
 DELOS_C_API int delos_field_n_points(const delos_field* field, int64_t* n);
 /* At which the handle was taken; 0 before there was a grid. */
 DELOS_C_API int delos_field_generation(const delos_field* field, int64_t* generation);
+/* Of the handle's generation. */
 DELOS_C_API int delos_field_has_data(const delos_field* field, int* flag);
 /* Whether the values are new: made by the component, or stamped. */
 DELOS_C_API int delos_field_is_updated(const delos_field* field, int* flag);
@@ -174,7 +189,8 @@ DELOS_C_API int delos_field_time_stamp(delos_field* field, const char** text);
  * stores other values. `size` may be NULL. */
 DELOS_C_API int delos_field_data(const delos_field* field, const double** values, int64_t* size);
 
-/* Imports only; exports belong to the component. */
+/* Imports only; exports belong to the component and are DELOS_ERROR_STATE. A wrong size, or axes
+ * that can't be used, are DELOS_ERROR_INPUT. */
 /* The values will come as [n_lat, n_lon] on this grid (degrees), not on cells: at least two of
  * each, strictly rising or falling, less than one turn. */
 DELOS_C_API int delos_field_place_on_lat_lon(delos_field* field, const double* lon_deg,

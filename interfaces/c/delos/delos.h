@@ -35,7 +35,7 @@ extern "C" {
 
 /* Grows when a program compiled with an older header can't use the library: compare it with
  * delos_abi_version() once, at the start. */
-#define DELOS_ABI_VERSION 2
+#define DELOS_ABI_VERSION 3
 DELOS_C_API int delos_abi_version(void);
 /* "major.minor.patch" of the library that runs; static storage. */
 DELOS_C_API const char* delos_version(void);
@@ -71,6 +71,7 @@ DELOS_C_API const char* delos_last_error(const void* handle);
 
 /* --- context */
 
+/* DELOS_ERROR_RESOURCE without memory. */
 DELOS_C_API int delos_context_create(delos_context** context);
 /* Destroys everything made in it too. NULL is allowed. */
 DELOS_C_API int delos_context_destroy(delos_context* context);
@@ -114,7 +115,8 @@ DELOS_C_API int delos_config_from_text(delos_context* context, const char* yaml,
                                        const char* folder, delos_config** config);
 /* Frees it but for a small shell. NULL is allowed. */
 DELOS_C_API int delos_config_destroy(delos_config* config);
-/* Sets one key, e.g. ("sizing.sources.0.spacing", "60 km"); the value is YAML. */
+/* Sets one key, e.g. ("sizing.sources.0.spacing", "60 km"); the value is YAML. A list (from 0)
+ * grows by one when the index is its length. */
 DELOS_C_API int delos_config_set(delos_config* config, const char* key, const char* value);
 /* Checks every key and value as delos_generate does; no file is opened. */
 DELOS_C_API int delos_config_check(delos_config* config);
@@ -126,7 +128,8 @@ DELOS_C_API int delos_config_text(delos_config* config, const char** text);
 
 /* Reads the files that the configuration names, sizes, refines, relaxes, and builds the dual.
  * Writes nothing. The configuration may be destroyed or changed afterwards, and may be another
- * context's. */
+ * context's. DELOS_ERROR_CONFIG for a setting, _INPUT for a file, _RESOURCE, before anything large
+ * is allocated, for a grid that does not fit, _QUALITY when a `require:` is missed, _CANCELLED. */
 DELOS_C_API int delos_generate(delos_context* context, const delos_config* config,
                                delos_grid** grid);
 /* Frees it, and its arrays and strings, but for a small shell. NULL is allowed. */
@@ -179,7 +182,10 @@ DELOS_C_API int delos_grid_vertex_lon_lat(const delos_grid* grid, const double**
                                           int64_t* size);
 
 /* Tables around a cell are ragged: those of cell i are values offsets[i] .. offsets[i + 1] - 1;
- * entry j of each belongs to edge j, which joins vertex j - 1 to vertex j. Ids from 0. */
+ * entry j of each belongs to edge j, which joins vertex j - 1 to vertex j. Ids from 0. With a
+ * section `domain` the grid has a border: -1 stands in cells_on_cell, in the second of
+ * cells_on_edge (the normal points out), in cells_on_vertex and edges_on_vertex where there is
+ * nothing, a kite there is 0, and the ragged tables are shorter than 2 n_edges. */
 /* [n_cells + 1] */
 DELOS_C_API int delos_grid_cell_offsets(const delos_grid* grid, const int64_t** values,
                                         int64_t* size);
@@ -253,6 +259,7 @@ typedef struct delos_quality {
   double min_dual_ratio;    /* shortest dual edge / its primal edge */
   double degree_6_fraction; /* share of hexagons */
 } delos_quality;
+/* Over the whole grid. */
 DELOS_C_API int delos_grid_quality(const delos_grid* grid, delos_quality* quality);
 
 /* The worst element of one measure. */
@@ -274,6 +281,7 @@ typedef struct delos_certificate {
   delos_worst stagger_max;       /* an edge: distance of its middle from its dual's / its length */
   delos_worst angle_max_deg;     /* a vertex (triangle): largest angle */
 } delos_certificate;
+/* The numbers that every file and the report have, too. */
 DELOS_C_API int delos_grid_certificate(const delos_grid* grid, delos_certificate* certificate);
 
 /* --- files: each appears whole or not at all; DELOS_ERROR_OUTPUT's text says why not */
@@ -282,6 +290,7 @@ DELOS_C_API int delos_grid_write_mpas(const delos_grid* grid, const char* path);
 /* The Voronoi cells, or the triangles, as UGRID faces. */
 DELOS_C_API int delos_grid_write_ugrid_cells(const delos_grid* grid, const char* path);
 DELOS_C_API int delos_grid_write_ugrid_triangles(const delos_grid* grid, const char* path);
+/* The report as JSON. */
 DELOS_C_API int delos_grid_write_report(const delos_grid* grid, const char* path);
 /* What the configuration's `output` section names, all or nothing, into `directory` (NULL = the
  * configured one). *paths (may be NULL) lists the files, each followed by a line end; valid until

@@ -33,21 +33,24 @@ class DELOS_API Alarm {
  public:
   /// In its clock, from 0.
   int id() const { return id_; }
+  /// As of the clock's last step.
   bool is_ringing() const;
   /// Whether it rang right after the clock's last step but one.
   bool was_ringing() const;
   bool is_enabled() const;
   bool is_sticky() const;
-  /// The next time to ring.
+  /// The next time to ring; of one that rings once its only one, past or not.
   Time ring_time() const;
   /// Zero when it rings once.
   TimeInterval interval() const;
 
+  /// Rings again, from its next ring time on.
   void enable();
-  /// Also stops the ringing.
+  /// Also stops the ringing; ring times go by unheard.
   void disable();
-  /// Error(state) when it is disabled.
+  /// Rings from the clock's current time on. Error(state) when it is disabled.
   void ringer_on();
+  /// Until the next ring time.
   void ringer_off();
 
  private:
@@ -88,14 +91,18 @@ class DELOS_API Clock {
   /// Whether stop is reached or passed.
   bool is_done() const;
 
-  /// After start and not before the current time; without a value the clock is never done.
+  /// After start and not before the current time, else Error(config); without a value the clock is
+  /// never done.
   void set_stop(const std::optional<Time>& stop);
+  /// Of all later steps; Error(config) when it is not forward.
   void set_step(const TimeInterval& step);
-  /// One step; then all alarms are checked. Beyond stop, too.
+  /// One step; then all alarms are checked. Beyond stop, too. Error(config) beyond the range of
+  /// years.
   void advance();
 
   /// Error(config) for options that contradict each other.
   Alarm add_alarm(const AlarmOptions& options);
+  /// Alarms are never removed.
   int n_alarms() const;
   /// Error(state) for an unknown id.
   Alarm alarm(int id) const;

@@ -58,7 +58,9 @@ class DELOS_API Component {
   void initialize();
   /// From clock.current() to clock.next(), before the host advances its clock. Exports are then of
   /// that time. The states are the component's own; the first run says when it starts, and every
-  /// later one must begin where the last one ended.
+  /// later one must begin where the last one ended, else Error(state). With a section `remesh` the
+  /// imports, as they stand, go into its statistics (Error(input) for values that are not finite),
+  /// and at its alarm the grid may be made anew: see generation().
   void run(const State& import_state, const State& export_state, const Clock& clock);
   /// The grid, the host's clock with its alarms, the component's time, the generation and the
   /// configuration in one file: whole or not at all, the former file stays until it is on the disk.
@@ -76,6 +78,7 @@ class DELOS_API Component {
   /// Gives the grid back. The component may be initialized again, with the next generation.
   void finalize();
 
+  /// What the host gives and gets; the handles stay good for all phases.
   State import_state() const;
   State export_state() const;
   /// Shares the component's arrays and keeps them, when the component goes on or ends, too; its

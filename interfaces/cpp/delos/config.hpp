@@ -26,8 +26,8 @@ class DELOS_API Config {
   Config& operator=(Config&& other) noexcept;
   ~Config();
 
-  /// Sets one key, e.g. ("sizing.sources.0.spacing", "60 km"); the value is YAML. A list grows by
-  /// one when the index is its length.
+  /// Sets one key, e.g. ("sizing.sources.0.spacing", "60 km"); the value is YAML. A list (from 0)
+  /// grows by one when the index is its length.
   void set(const std::string& key, const std::string& value);
 
   /// Checks every key and value as generate() does; no file is opened.

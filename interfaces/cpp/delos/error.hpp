@@ -26,7 +26,7 @@ DELOS_API const char* to_string(ErrorKind kind);
 /// The only exception that leaves a public function, but for std::bad_alloc.
 class DELOS_API Error : public std::runtime_error {
  public:
-  Error(ErrorKind kind, const std::string& message);
+  Error(ErrorKind kind, const std::string& message);  ///< of the library, or of a host's callback
   ~Error() override;
   ErrorKind kind() const noexcept { return kind_; }
 

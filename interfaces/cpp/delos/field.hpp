@@ -28,18 +28,22 @@ DELOS_API const char* to_string(Location location);
 /// lat-lon grid do not depend on the component's grid.
 class DELOS_API Field {
  public:
+  /// Unique in its state.
   const std::string& name() const;
   /// CF's, or empty.
   const std::string& standard_name() const;
+  /// As UDUNITS reads them, e.g. "m2 s-2".
   const std::string& units() const;
   const std::string& long_name() const;
   Location location() const;
+  /// Values of each place, which stand together.
   int n_components() const;
   /// At which this handle was taken; 0 before there was a grid.
   std::int64_t generation() const;
   /// Cells or other places; 0 before there is a grid.
   std::int64_t n_points() const;
 
+  /// Of the handle's generation.
   bool has_data() const;
   /// [n_points, n_components], no copy. Valid until the next generation, or until the host binds
   /// or stores other values. Error(state) when there are none.

@@ -35,7 +35,9 @@ struct GenerateOptions {
 };
 
 /// Reads the files that the configuration names, sizes, refines, relaxes, and builds the dual.
-/// Writes nothing, prints nothing. Strong guarantee: a Grid or an exception.
+/// Writes nothing, prints nothing. Strong guarantee: a Grid or an exception: Error(config) for a
+/// setting, Error(input) for a file, Error(resource), before anything large is allocated, for a
+/// grid that does not fit, Error(quality) when a `require:` is missed, Error(cancelled).
 DELOS_API Grid generate(const Config& config, const GenerateOptions& options = {});
 
 }  // namespace delos::api

@@ -22,12 +22,20 @@ enum class PartitionMethod {
   curve       ///< pieces of a Hilbert curve: cheap, the same with any library
 };
 
+/// What a cell counts where the host gives no weights.
+enum class CellWork {
+  automatic,  ///< layers where the grid has those of an ocean (section `layers`), else cells
+  cells,      ///< each cell the same
+  layers      ///< the wet layers of each cell; Error(config) where the grid has none
+};
+
 struct PartitionOptions {
   std::int64_t n_parts = 1;
   PartitionMethod method = PartitionMethod::automatic;
   int halo_layers = 1;  ///< >= 1; one is enough for the tangential velocity at owned edges
-  /// Work of each cell, e.g. its number of wet layers: [n_cells], finite, >= 0; empty = 1 each.
+  /// Work of each cell: [n_cells], finite, >= 0; empty = as `work` says.
   std::vector<double> cell_weight = {};
+  CellWork work = CellWork::automatic;
 };
 
 /// What one process has of a grid: the cells it owns, then the halo, layer after layer, by global
@@ -38,25 +46,27 @@ struct PartitionOptions {
 /// any copy.
 class DELOS_API LocalGrid {
  public:
-  int part() const;
-  int n_parts() const;
-  int halo_layers() const;
+  int part() const;         ///< from 0
+  int n_parts() const;      ///< of the partition
+  int halo_layers() const;  ///< of cells, around the owned ones
 
   // --- of Location cell, edge or vertex; Error(config) for another
   std::int64_t n_local(Location location) const;                     ///< owned and halo
   std::int64_t n_owned(Location location) const;                     ///< the first ones
   std::int64_t n_global(Location location) const;                    ///< of the whole grid
-  std::span<const std::int32_t> global_id(Location location) const;  ///< [n_local]
-  std::span<const std::int32_t> owner(Location location) const;      ///< [n_local] part
-  /// Layer l is [offsets[l], offsets[l + 1]). Cells: 0 is owned, l is l steps away. Edges and
-  /// vertices: 0 is owned, 1 the rest of those on owned cells, l + 1 those on cells of layer l.
+  std::span<const std::int32_t> global_id(Location location) const;  ///< [n_local] from 0
+  std::span<const std::int32_t> owner(Location location) const;      ///< [n_local] part, from 0
+  /// Layer l is [offsets[l], offsets[l + 1]); one more than there are layers. Cells: 0 is owned, l
+  /// is l steps away. Edges and vertices: 0 is owned, 1 the rest of those on owned cells, l + 1
+  /// those on cells of layer l.
   std::span<const std::int64_t> layer_offsets(Location location) const;
-  /// Parts to exchange with, ascending.
+  /// [n_neighbours] parts to exchange with, ascending.
   std::span<const std::int32_t> neighbours(Location location) const;
-  /// Local ids that the k-th neighbour needs of ours: send_ids [send_offsets[k],
+  /// [n_neighbours + 1] local ids that the k-th neighbour needs of ours: send_ids [send_offsets[k],
   /// send_offsets[k + 1]), in the order in which it lists them as received.
   std::span<const std::int64_t> send_offsets(Location location) const;
   std::span<const std::int32_t> send_ids(Location location) const;
+  /// [n_neighbours + 1] likewise the local ids whose values come from the k-th neighbour.
   std::span<const std::int64_t> receive_offsets(Location location) const;
   std::span<const std::int32_t> receive_ids(Location location) const;
 
@@ -65,7 +75,7 @@ class DELOS_API LocalGrid {
   std::array<double, 3> centre_m() const;
   double scale_m() const;
 
-  // --- arrays, as of Grid, [n_local] of their kind
+  // --- arrays as of Grid with n_local of their kind in the place of n_cells, n_edges, n_vertices
   std::span<const double> cell_position() const;
   std::span<const double> edge_position() const;
   std::span<const double> vertex_position() const;
@@ -142,6 +152,7 @@ class DELOS_API Partition {
 
 #ifndef DELOS_BUILDING_LIBRARY
 namespace delos {
+using api::CellWork;
 using api::LocalGrid;
 using api::Partition;
 using api::PartitionMethod;

@@ -24,6 +24,7 @@ DELOS_API const char* to_string(Intent intent);
 class DELOS_API State {
  public:
   Intent intent() const;
+  /// Items.
   std::int64_t size() const;
   /// In the order of declaration.
   std::vector<std::string> names() const;

@@ -40,6 +40,7 @@ class DELOS_API TimeInterval {
   TimeInterval() = default;
   /// ISO 8601, "P1Y2M10DT2H30M", "P2W", "PT0.5S", "-P1D"; Error(config) says what is wrong.
   static TimeInterval parse(const std::string& text);
+  /// Of a negative number: backward.
   static TimeInterval of_years(std::int64_t n);
   static TimeInterval of_months(std::int64_t n);
   static TimeInterval of_days(std::int64_t n);
@@ -82,14 +83,17 @@ class DELOS_API Time {
   static Time of(const DateTime& when, Calendar calendar = Calendar::gregorian);
 
   Calendar calendar() const { return calendar_; }
+  /// The same time as numbers; of() reads them back.
   DateTime date_time() const;
   /// 1 for January 1st.
   int day_of_year() const;
+  /// "2000-02-29T06:30:00"; parse reads it back exactly.
   std::string text() const;
 
   bool operator==(const Time& other) const;
   std::strong_ordering operator<=>(const Time& other) const;
-  /// Months first, the day clipped to the month's last, then seconds.
+  /// Months first, the day clipped to the month's last, then seconds. Error(config) beyond the
+  /// range of years.
   Time operator+(const TimeInterval& interval) const;
   Time operator-(const TimeInterval& interval) const;
   /// Exact seconds.

@@ -28,8 +28,11 @@ typedef struct delos_mpi_grid delos_mpi_grid;
 enum { DELOS_MPI_CELL = 0, DELOS_MPI_EDGE = 1, DELOS_MPI_VERTEX = 2 };
 /* automatic: kway where delos was built with METIS, else curve (pieces of a Hilbert curve) */
 enum { DELOS_MPI_AUTOMATIC = 0, DELOS_MPI_KWAY = 1, DELOS_MPI_CURVE = 2 };
+/* What a cell counts. automatic: its wet layers where the configuration has a section `layers` of
+ * an ocean, else each cell the same; layers without such a section is DELOS_ERROR_CONFIG */
+enum { DELOS_MPI_WORK_AUTOMATIC = 0, DELOS_MPI_WORK_CELLS = 1, DELOS_MPI_WORK_LAYERS = 2 };
 
-/* The work of each cell, e.g. its wet layers, into weight[n_cells] (finite, >= 0), from lon_lat
+/* The work of each cell into weight[n_cells] (finite, >= 0), from lon_lat
  * [n_cells, 2] in radians. Called on the generating process; not 0 = it failed. */
 typedef int (*delos_mpi_weight_callback)(int64_t n_cells, const double* lon_lat, double* weight,
                                          void* user_data);
@@ -40,8 +43,9 @@ typedef struct delos_mpi_options {
   int root;        /* rank of the generating process */
   int halo_layers; /* 0 = 1 */
   int method;      /* DELOS_MPI_AUTOMATIC, ... */
-  delos_mpi_weight_callback cell_weight; /* NULL = each cell the same */
+  delos_mpi_weight_callback cell_weight; /* NULL = as `work` says */
   void* user_data;
+  int work; /* DELOS_MPI_WORK_AUTOMATIC, ... */
 } delos_mpi_options;
 
 /* Collective. The file is read by the generating process only; `path`, `yaml` and `folder` (NULL =
@@ -67,6 +71,7 @@ DELOS_C_API const char* delos_mpi_last_error(const delos_mpi_grid* grid);
 DELOS_C_API int delos_mpi_grid_n_local(delos_mpi_grid* grid, int location, int64_t* n);
 DELOS_C_API int delos_mpi_grid_n_owned(delos_mpi_grid* grid, int location, int64_t* n);
 DELOS_C_API int delos_mpi_grid_n_global(delos_mpi_grid* grid, int location, int64_t* n);
+/* 1 for a fresh grid; grows when a component rebuilds it. */
 DELOS_C_API int delos_mpi_grid_generation(delos_mpi_grid* grid, int64_t* generation);
 /* SHA-256 of the whole grid in 64 hex digits; valid until the grid is destroyed. */
 DELOS_C_API int delos_mpi_grid_digest(delos_mpi_grid* grid, const char** text);
@@ -76,12 +81,12 @@ DELOS_C_API int delos_mpi_grid_digest(delos_mpi_grid* grid, const char** text);
 #define DELOS_MPI_LIST(name, type)                                                               \
   DELOS_C_API int delos_mpi_grid_##name(delos_mpi_grid* grid, int location, const type** values, \
                                         int64_t* size);
-DELOS_MPI_LIST(global_id, int32_t)       /* [n_local] */
-DELOS_MPI_LIST(owner, int32_t)           /* [n_local] rank */
-DELOS_MPI_LIST(layer_offsets, int64_t)   /* layer l: [l] .. [l + 1] - 1; layer 0 is owned */
-DELOS_MPI_LIST(neighbours, int32_t)      /* ranks to exchange with, ascending */
-DELOS_MPI_LIST(send_offsets, int64_t)    /* [n_neighbours + 1] into send_ids */
-DELOS_MPI_LIST(send_ids, int32_t)        /* local ids that a neighbour needs */
+DELOS_MPI_LIST(global_id, int32_t)     /* [n_local] */
+DELOS_MPI_LIST(owner, int32_t)         /* [n_local] rank */
+DELOS_MPI_LIST(layer_offsets, int64_t) /* [n_layers + 1] layer l: [l] .. [l + 1] - 1; 0 is owned */
+DELOS_MPI_LIST(neighbours, int32_t)    /* [n_neighbours] ranks to exchange with, ascending */
+DELOS_MPI_LIST(send_offsets, int64_t)  /* [n_neighbours + 1] into send_ids */
+DELOS_MPI_LIST(send_ids, int32_t)      /* local ids that a neighbour needs */
 DELOS_MPI_LIST(receive_offsets, int64_t) /* [n_neighbours + 1] into receive_ids */
 DELOS_MPI_LIST(receive_ids, int32_t)     /* local ids that come from it */
 #undef DELOS_MPI_LIST

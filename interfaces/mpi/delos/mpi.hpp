@@ -32,8 +32,10 @@ struct Options {
   int root = 0;         ///< rank of the generating process; the same everywhere
   int halo_layers = 1;  ///< the same everywhere
   PartitionMethod method = PartitionMethod::automatic;
-  /// Work of each cell, [n_cells], e.g. wet layers; called on the generating process.
+  /// Work of each cell, [n_cells], finite, >= 0; called on the generating process. Without it:
+  /// as `work` says.
   std::function<std::vector<double>(const Grid&)> cell_weight = {};
+  CellWork work = CellWork::automatic;  ///< by wet layers where the grid has them
   /// Whether the generating process keeps the whole grid, to write files or to remap.
   bool keep_whole_grid = false;
 };
@@ -45,9 +47,10 @@ class DELOS_API DistributedGrid {
   const LocalGrid& local() const;
   /// delos's duplicate; its ranks are the parts.
   MPI_Comm communicator() const;
+  /// Rank of the generating process.
   int root() const;
 
-  // --- of the whole grid, known to all
+  // --- of the whole grid, known to all, as Grid's
   std::int64_t generation() const;
   const std::string& digest() const;
   const std::string& config_text() const;
