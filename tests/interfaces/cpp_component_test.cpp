@@ -1,118 +1,73 @@
 // SPDX-License-Identifier: BSD-3-Clause
 // Hosts of the component, well behaved and not.
 #include <doctest/doctest.h>
-#include <fcntl.h>
-#include <tbb/parallel_for.h>
-#include <tbb/task_arena.h>
-#include <unistd.h>
 
 #include <array>
-#include <cfenv>
-#include <chrono>
-#include <clocale>
-#include <csignal>
-#include <cstdio>
+#include <atomic>
 #include <delos/delos.hpp>
 #include <functional>
-#include <locale>
-#include <thread>
-#ifdef _OPENMP
-#include <omp.h>
-#endif
+#include <optional>
+#include <string>
+#include <vector>
 
+#include "component_support.hpp"
 #include "support/temporary_folder.hpp"
+
+using namespace hosts;
 
 namespace {
 
-delos::Config uniform(const char* spacing) {
-  auto config = delos::Config::from_text(
-      "sizing: {sources: [{type: constant, spacing: 600 km}]}\n"
-      "refine: {tile_vertices: 500}\n");
-  config.set("sizing.sources.0.spacing", spacing);
-  return config;
-}
+// The stages of a component's life, and who may be called in which.
+enum Stage { created, advertised, realized, running, finalized, n_stages };
 
-delos::Clock daily() {
-  return delos::Clock({.start = delos::Time::parse("2000-02-27"),
-                       .stop = delos::Time::parse("2000-03-02"),
-                       .step = delos::TimeInterval::of_days(1)});
-}
-
-void run_all(delos::Component& component, delos::Clock& clock) {
-  for (; !clock.is_done(); clock.advance()) {
+/// A component with what its host has of it, brought to a stage.
+struct Host {
+  Host(Stage stage, std::string restart_file)
+      : component(uniform("1500 km"), {.threads = 1}), path(std::move(restart_file)) {
+    if (stage == created) return;
+    component.initialize(delos::InitializePhase::advertise);
+    if (stage >= realized) component.initialize(delos::InitializePhase::realize);
+    if (stage >= running) run();
+    if (stage == finalized) component.finalize();
+  }
+  void run() {
     component.run(component.import_state(), component.export_state(), clock);
+    clock.advance();
   }
-}
-
-/// The digest of the grid after a whole life, initialize to the last step.
-std::string life(const delos::Config& config, int threads) {
-  delos::Component component(config, {.threads = threads});
-  component.initialize();
-  auto clock = daily();
-  run_all(component, clock);
-  const delos::Grid grid = component.grid();
-  component.finalize();
-  return grid.digest();
-}
-
-/// action() must throw Error(state) whose message holds the parts.
-void refused(const std::function<void()>& action, std::initializer_list<const char*> parts) {
-  std::string message;
-  try {
-    action();
-  } catch (const delos::Error& error) {
-    message = error.what();
-    CHECK(error.kind() == delos::ErrorKind::state);
-  }
-  CAPTURE(message);
-  REQUIRE_MESSAGE(!message.empty(), "no error was thrown");
-  for (const char* const part : parts) CHECK(message.find(part) != std::string::npos);
-}
-
-/// What goes to a file descriptor while it lives.
-class Capture {
- public:
-  explicit Capture(int descriptor)
-      : descriptor_(descriptor), saved_(dup(descriptor)), file_(std::tmpfile()) {
-    std::fflush(nullptr);
-    dup2(fileno(file_), descriptor_);
-  }
-  ~Capture() {
-    restore();
-    std::fclose(file_);
-  }
-  Capture(const Capture&) = delete;
-  Capture& operator=(const Capture&) = delete;
-  long n_bytes() {
-    restore();
-    return static_cast<long>(lseek(fileno(file_), 0, SEEK_END));
-  }
-
- private:
-  void restore() {
-    if (saved_ < 0) return;
-    std::fflush(nullptr);
-    dup2(saved_, descriptor_);
-    close(saved_);
-    saved_ = -1;
-  }
-  int descriptor_;
-  int saved_;
-  std::FILE* file_;
+  delos::Component component;
+  delos::Clock clock = daily();
+  std::string path;
 };
 
-constexpr std::array kSignals = {SIGINT, SIGTERM, SIGSEGV, SIGFPE, SIGPIPE, SIGHUP, SIGUSR1};
+struct Call {
+  const char* name;
+  std::function<void(Host&)> action;
+  std::array<bool, n_stages> is_allowed;
+};
 
-/// What the process does on each of kSignals.
-std::vector<std::pair<void (*)(int), int>> actions() {
-  std::vector<std::pair<void (*)(int), int>> out;
-  for (const int number : kSignals) {
-    struct sigaction action {};
-    sigaction(number, nullptr, &action);
-    out.emplace_back(action.sa_handler, action.sa_flags);
-  }
-  return out;
-}
+const std::array kCalls = {
+    Call{"initialize(advertise)",
+         [](Host& host) { host.component.initialize(delos::InitializePhase::advertise); },
+         {true, true, false, false, true}},
+    Call{"initialize(realize)",
+         [](Host& host) { host.component.initialize(delos::InitializePhase::realize); },
+         {false, true, true, false, false}},
+    Call{"initialize",
+         [](Host& host) { host.component.initialize(); },
+         {true, true, true, false, true}},
+    Call{"run", [](Host& host) { host.run(); }, {false, false, true, true, false}},
+    Call{
+        "finalize", [](Host& host) { host.component.finalize(); }, {false, true, true, true, true}},
+    Call{"grid",
+         [](Host& host) { static_cast<void>(host.component.grid()); },
+         {false, false, true, true, false}},
+    Call{"write_restart",
+         [](Host& host) { host.component.write_restart(host.path + ".new", host.clock); },
+         {false, false, true, true, false}},
+    Call{"read_restart",
+         [](Host& host) { host.component.read_restart(host.path, host.clock); },
+         {false, true, false, false, false}},
+};
 
 }  // namespace
 
@@ -177,6 +132,78 @@ TEST_CASE("every call in a wrong order is Error(state) that says what is expecte
   for (const auto& call : std::vector<std::function<void()>>{realize, run, grid}) {
     refused(call, {"finalized", "expected: initialize(advertise)"});
   }
+}
+
+TEST_CASE("every call in every stage does its work, or is refused and changes nothing") {
+  const delos::testing::TemporaryFolder folder;
+  const std::string path = folder.file("a.nc");
+  {
+    const Host host(realized, path);
+    host.component.write_restart(path, host.clock);
+  }
+  for (int stage = 0; stage < n_stages; ++stage) {
+    for (const Call& call : kCalls) {
+      CAPTURE(stage);
+      CAPTURE(call.name);
+      Host host(static_cast<Stage>(stage), path);
+      const std::int64_t generation = host.component.generation();
+      if (call.is_allowed[static_cast<std::size_t>(stage)]) {
+        CHECK_NOTHROW(call.action(host));
+        continue;
+      }
+      refused([&] { call.action(host); }, {"was called on a component that is", "expected: "});
+      CHECK(host.component.generation() == generation);
+      // And it goes on as if it had not been asked.
+      if (generation == 0) host.component.initialize();
+      CHECK_NOTHROW(host.run());
+    }
+  }
+}
+
+TEST_CASE("a driver that knows phases by number alone runs a component") {
+  const delos::testing::TemporaryFolder folder;
+  std::vector<delos::EntryPoint> table;
+  const auto set = [&](delos::EntryPoint entry) { table.push_back(std::move(entry)); };
+  delos::set_services(set);
+  CHECK(table.size() == 4);
+  table.clear();
+  std::string asked_at;
+  delos::set_services(set, [&](const delos::Clock& clock) {
+    asked_at = clock.current().text();
+    return folder.file("a.nc");
+  });
+  std::vector<std::string> labels;
+  labels.reserve(table.size());
+  for (const delos::EntryPoint& entry : table) {
+    labels.push_back(delos::to_string(entry.method) + std::to_string(entry.phase) + entry.label);
+  }
+  CHECK(labels == std::vector<std::string>{"initialize1advertise", "initialize2realize", "run1run",
+                                           "finalize1finalize", "write_restart1write_restart",
+                                           "read_restart1read_restart"});
+  CHECK(static_cast<int>(delos::Method::read_restart) == 5);  // ESMF_METHOD_READRESTART
+
+  delos::Component component(uniform("1500 km"));
+  delos::Component other(uniform("1500 km"));
+  auto clock = daily();
+  const auto call = [&](delos::Component& of, delos::Method method, int phase) {
+    for (const delos::EntryPoint& entry : table) {
+      if (entry.method != method || entry.phase != phase) continue;
+      entry.call(of, of.import_state(), of.export_state(), clock);
+    }
+  };
+  refused([&] { call(component, delos::Method::run, 1); }, {"expected: initialize(advertise)"});
+  call(component, delos::Method::initialize, 1);
+  call(component, delos::Method::initialize, 2);
+  for (; clock.advance_count() < 2; clock.advance()) call(component, delos::Method::run, 1);
+  call(component, delos::Method::write_restart, 1);
+  CHECK(asked_at == "2000-02-29T00:00:00");
+  const std::string digest = component.grid().digest();
+  call(component, delos::Method::finalize, 1);
+  CHECK(component.generation() == 0);
+  call(other, delos::Method::initialize, 1);
+  call(other, delos::Method::read_restart, 1);
+  CHECK(other.grid().digest() == digest);
+  CHECK(other.current_time() == clock.current());
 }
 
 TEST_CASE("run takes the component's own states, the right way round") {
@@ -340,82 +367,6 @@ TEST_CASE("a stopped realize leaves the component advertised, and it can go on")
   CHECK(moved.grid().n_cells() > 1000);
 }
 
-TEST_CASE("two components on two threads make the grids that they make alone") {
-  const auto coarse = uniform("900 km");
-  const auto fine = uniform("500 km");
-  const std::array<std::string, 2> alone = {life(coarse, 1), life(fine, 1)};
-  CHECK(alone[0] != alone[1]);
-  for (const int threads : {1, 2, 5}) {
-    CAPTURE(threads);
-    std::array<std::string, 2> together;
-    std::thread first([&] { together[0] = life(coarse, threads); });
-    std::thread second([&] { together[1] = life(fine, threads); });
-    first.join();
-    second.join();
-    CHECK(together == alone);
-  }
-}
-
-TEST_CASE("components in the host's own oneTBB and OpenMP loops make the same grids") {
-  const auto config = uniform("900 km");
-  const std::string alone = life(config, 1);
-  constexpr int kHosts = 4;
-  std::array<std::string, kHosts> digests;
-  tbb::task_arena arena(2);
-  arena.execute([&] {
-    tbb::parallel_for(0, kHosts,
-                      [&](int i) { digests[static_cast<std::size_t>(i)] = life(config, i % 3); });
-  });
-  for (const std::string& digest : digests) CHECK(digest == alone);
-#ifdef _OPENMP
-  digests.fill("");
-#pragma omp parallel for num_threads(3)
-  for (int i = 0; i < kHosts; ++i) digests[static_cast<std::size_t>(i)] = life(config, i % 3);
-  for (const std::string& digest : digests) CHECK(digest == alone);
-#else
-  MESSAGE("built without OpenMP: its part is left out");
-#endif
-}
-
-TEST_CASE("a component's life leaves output, locale, signals and floating point alone") {
-  const std::string alone = life(uniform("900 km"), 2);
-  const std::string locale = std::setlocale(LC_ALL, nullptr);
-  const std::string cpp_locale = std::locale().name();
-  const auto before = actions();
-  sigset_t mask_before, mask_after;
-  pthread_sigmask(SIG_SETMASK, nullptr, &mask_before);
-  const int rounding = std::fegetround();
-  Capture out(STDOUT_FILENO);
-  Capture err(STDERR_FILENO);
-  const std::string digest = life(uniform("900 km"), 2);
-  const long n_out = out.n_bytes();
-  const long n_err = err.n_bytes();
-  CHECK(digest == alone);
-  CHECK(n_out == 0);
-  CHECK(n_err == 0);
-  CHECK(std::setlocale(LC_ALL, nullptr) == locale);
-  CHECK(std::locale().name() == cpp_locale);
-  CHECK(actions() == before);
-  pthread_sigmask(SIG_SETMASK, nullptr, &mask_after);
-  for (const int number : kSignals) {
-    CHECK(sigismember(&mask_before, number) == sigismember(&mask_after, number));
-  }
-  CHECK(std::fegetround() == rounding);
-#ifdef __GLIBC__
-  CHECK(fegetexcept() == 0);
-#endif
-}
-
-TEST_CASE("a thousand components that are never realized come and go") {
-  const auto config = uniform("900 km");
-  for (int i = 0; i < 1000; ++i) {
-    delos::Component component(config);
-    component.initialize(delos::InitializePhase::advertise);
-    if (i % 2 == 0) component.finalize();
-    CHECK(component.generation() == 0);
-  }
-}
-
 TEST_CASE("clocks, alarms, times and intervals of the host are exact") {
   const auto noleap = delos::parse_calendar("365_day");
   CHECK(noleap == delos::Calendar::noleap);
@@ -450,14 +401,4 @@ TEST_CASE("clocks, alarms, times and intervals of the host are exact") {
   refused([&] { alarm.ringer_on(); }, {"alarm"});
   refused([&] { static_cast<void>(clock.alarm(3)); }, {"3"});
   CHECK_THROWS_AS(delos::Clock({.start = start, .stop = {}, .step = {}}), delos::Error);
-}
-
-TEST_CASE("what starting costs: initialize of a 60 km grid") {
-  auto config = delos::Config::from_text("sizing: {sources: [{type: constant, spacing: 60 km}]}");
-  delos::Component component(config);
-  const auto begin = std::chrono::steady_clock::now();
-  component.initialize();
-  const std::chrono::duration<double> wall = std::chrono::steady_clock::now() - begin;
-  MESSAGE("initialize: ", component.grid().n_cells(), " cells in ", wall.count(), " s");
-  CHECK(component.grid().certificate().well_centred);
 }

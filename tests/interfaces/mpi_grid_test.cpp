@@ -9,6 +9,7 @@
 #include <cmath>
 #include <ctime>
 #include <delos/mpi.hpp>
+#include <fstream>
 #include <limits>
 #include <stdexcept>
 #include <thread>
@@ -381,6 +382,37 @@ TEST_CASE("processes that wait sleep") {
       options());
   const double used_s = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   if (rank() != 0) CHECK(used_s < 0.4);
+}
+
+TEST_CASE("no process but the generating one holds more than its part" * doctest::skip()) {
+  // By the kernel's count of the most memory that a process ever had.
+  const auto peak_kib = [] {
+    std::ifstream file("/proc/self/status");
+    for (std::string line; std::getline(file, line);) {
+      if (begins(line, "VmHWM:")) return std::stol(line.substr(6));
+    }
+    return 0L;
+  };
+  delos::mpi::Options how = options();
+  how.keep_whole_grid = true;
+  const long before_kib = peak_kib();
+  const DistributedGrid grid = delos::mpi::generate(
+      MPI_COMM_WORLD,
+      [] { return delos::Config::from_text("generator: icosahedral\nsubdivisions: 80\n"); }, how);
+  const long grown_kib = peak_kib() - before_kib;
+  std::int64_t n_whole_bytes = 0;
+  if (grid.whole()) {
+    const delos::LocalGrid whole = delos::Partition(*grid.whole(), {.n_parts = 1}).part(0);
+    for (const auto buffer : whole.buffers()) {
+      n_whole_bytes += static_cast<std::int64_t>(buffer.size());
+    }
+  }
+  MPI_Bcast(&n_whole_bytes, 1, MPI_INT64_T, grid.root(), MPI_COMM_WORLD);
+  CAPTURE(grown_kib);
+  CAPTURE(n_whole_bytes);
+  CHECK(n_whole_bytes > 30'000'000);
+  // A quarter of the grid, its halo, and what MPI takes for messages.
+  if (rank() != grid.root()) CHECK(grown_kib * 1024 < n_whole_bytes / 2);
 }
 
 TEST_CASE("a thread that may not call MPI is refused") {
