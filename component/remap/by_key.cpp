@@ -13,7 +13,7 @@ constexpr std::int64_t kScanGrain = 65536;
 
 struct Keyed {
   Index key;
-  std::int64_t entry;
+  std::uint32_t in_block;  // which of its block's entries
 };
 
 // Entries by ranges of keys, those of a range as they came; `first` [n_ranges * n_blocks + 1] says
@@ -37,7 +37,8 @@ Array<Keyed> sort_by_range(parallel::Executor& exec, std::span<const Index> keys
       next[at(range)] = first[at(range * n_blocks + begin / kEntryBlock)];
     }
     for (std::int64_t k = begin; k < end; ++k) {
-      sorted[at(next[at(keys[at(k)] / kRange)]++)] = {keys[at(k)], k};
+      sorted[at(next[at(keys[at(k)] / kRange)]++)] = {keys[at(k)],
+                                                      static_cast<std::uint32_t>(k - begin)};
     }
   });
   return sorted;
@@ -65,8 +66,12 @@ ByKey sort_by_key(parallel::Executor& exec, std::span<const Index> keys, std::in
       next[at(key - begin) + 1] += next[at(key - begin)];
       result.offsets[at(key)] = next[at(key - begin)];
     }
-    for (std::int64_t k = from; k < to; ++k) {
-      result.entry[at(next[at(sorted[at(k)].key - begin)]++)] = sorted[at(k)].entry;
+    for (std::int64_t block = 0; block < n_blocks; ++block) {
+      const std::int64_t last = first[at(range * n_blocks + block + 1)];
+      for (std::int64_t k = first[at(range * n_blocks + block)]; k < last; ++k) {
+        const Keyed& one = sorted[at(k)];
+        result.entry[at(next[at(one.key - begin)]++)] = block * kEntryBlock + one.in_block;
+      }
     }
   });
   return result;

@@ -54,46 +54,55 @@ Frame::Frame(const Vec3& origin) : origin_(origin), height_(origin.norm()) {
 }
 
 bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {
-  frame_ = Frame(tiling.centres()[static_cast<std::size_t>(polygon)]);
+  frame_ = Frame(tiling.centres()[at(polygon)]);
   subject_.clear();
   for (const Index id : tiling.corners(polygon)) {
     const Vec3 p = frame_.local(tiling.corner(id));
     if (!(p.z() > 0.0)) return false;
     subject_.push_back({p.x() / p.z(), p.y() / p.z(), kNone});
   }
+  reach_ = 0.0;
   for (std::size_t k = 0; k < subject_.size(); ++k) {
+    reach_ = std::max({reach_, std::abs(subject_[k].x), std::abs(subject_[k].y)});
     subject_[k].side = ~static_cast<Index>(k + 1 == subject_.size() ? 0 : k + 1);
   }
   return true;
 }
 
 std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon) {
-  clipping_.clear();
-  for (const Index id : tiling.corners(polygon)) {
-    clipping_.push_back(frame_.local(tiling.corner(id)));
-  }
-  const Vec3 centre = frame_.local(tiling.centres()[static_cast<std::size_t>(polygon)]);
-  // Each side adds one corner at most.
-  const std::size_t most = subject_.size() + clipping_.size();
-  if (current_.size() < most) {
-    current_.resize(most);
-    next_.resize(most);
-    distance_.resize(most);
-  }
+  const auto ids = tiling.corners(polygon);
+  make_room(ids.size());
+  Vec3* const clipping = clipping_.data();
+  for (std::size_t k = 0; k < ids.size(); ++k) clipping[k] = frame_.local(tiling.corner(ids[k]));
+  const Vec3 centre = frame_.local(tiling.centres()[at(polygon)]);
+  n_clipping_ = ids.size();
   n_ = subject_.size();
   std::copy(subject_.begin(), subject_.end(), current_.begin());
-  for (std::size_t k = 0; k < clipping_.size(); ++k) {
-    const Vec3& from = clipping_[k == 0 ? clipping_.size() - 1 : k - 1];
-    const Vec3 line = from.cross(clipping_[k]);
+  for (std::size_t k = 0; k < ids.size(); ++k) {
+    const Vec3 line = clipping[k == 0 ? ids.size() - 1 : k - 1].cross(clipping[k]);
     const double length = line.cwiseAbs().sum();
     // A side that runs backwards, where the grid folds by a trifle, cuts nothing either.
     if (length < kShortest || !(line.dot(centre) > 0.0)) continue;
+    // All of the subject lies to its left, farther off than rounding.
+    if (line.z() >= reach_ * (std::abs(line.x()) + std::abs(line.y()))) continue;
     if (!cut(line, kOnSide * length, static_cast<Index>(k))) return {};
   }
   return {current_.data(), n_};
 }
 
-// Sutherland & Hodgman 1974 (doi:10.1145/360767.360802): keeps what lies left of the line.
+// Each side adds one corner, or one more where rounding has bent a polygon, and cut() writes one
+// more than it keeps.
+void Clipper::make_room(std::size_t n_clipping) {
+  const std::size_t most = subject_.size() + 2 * n_clipping + 1;
+  if (current_.size() >= most) return;
+  current_.resize(most);
+  next_.resize(most);
+  distance_.resize(most);
+  clipping_.resize(most);
+}
+
+// Sutherland & Hodgman 1974 (doi:10.1145/360767.360802): keeps what lies left of the line. A
+// corner that is not kept is overwritten by the next, without a branch, which can't be foretold.
 bool Clipper::cut(const Vec3& line, double on_side, Index side) {
   const Corner* const now = current_.data();
   double* const distance = distance_.data();
@@ -111,8 +120,9 @@ bool Clipper::cut(const Vec3& line, double on_side, Index side) {
     const Corner &p = now[k], &q = now[l];
     const double from = distance[k], to = distance[l];
     const bool leaves = to < -on_side;
-    if (from >= -on_side) *kept++ = {p.x, p.y, leaves && from <= on_side ? side : p.side};
-    if ((from > on_side && leaves) || (from < -on_side && to > on_side)) {
+    *kept = {p.x, p.y, leaves & (from <= on_side) ? side : p.side};
+    kept += static_cast<int>(from >= -on_side);
+    if (((from > on_side) & leaves) | ((from < -on_side) & (to > on_side))) {
       const double t = from / (from - to);
       *kept++ = {p.x + t * (q.x - p.x), p.y + t * (q.y - p.y), leaves ? side : p.side};
     }
@@ -142,7 +152,7 @@ double Clipper::part_of_side(std::span<const Corner> corners, std::size_t k) con
   const double part = std::abs(q.x - p.x) + std::abs(q.y - p.y);
   const bool is_own = p.side < 0;
   const auto to = static_cast<std::size_t>(is_own ? ~p.side : p.side);
-  const std::size_t n = is_own ? subject_.size() : clipping_.size();
+  const std::size_t n = is_own ? subject_.size() : n_clipping_;
   const std::size_t from = to == 0 ? n - 1 : to - 1;
   if (is_own) {
     const Corner &a = subject_[from], &b = subject_[to];

@@ -54,11 +54,14 @@ class Clipper {
 
  private:
   bool cut(const Vec3& line, double on_side, Index side);
+  void make_room(std::size_t n_clipping);
 
   Frame frame_{Vec3(0, 0, 1)};
   std::vector<Corner> subject_, current_, next_;  // of the last two n_ count
   std::size_t n_ = 0;
-  std::vector<Vec3> clipping_;
+  double reach_ = 0.0;          // no coordinate of the subject is larger
+  std::vector<Vec3> clipping_;  // of it n_clipping_ count
+  std::size_t n_clipping_ = 0;
   std::vector<double> distance_;
 };
 

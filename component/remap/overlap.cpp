@@ -6,6 +6,7 @@
 
 #include "geometry/point_order.hpp"
 #include "remap/clip.hpp"
+#include "remap/first_seen.hpp"
 #include "remap/walk.hpp"
 
 namespace delos::remap {
@@ -15,7 +16,8 @@ namespace {
 constexpr std::int64_t kBlock = 512;
 constexpr std::int64_t kCopyGrain = 4096;  // targets whose overlaps are copied, 0.1 ms
 
-constexpr std::size_t kExpected = 6;  // overlaps a target between grids of like spacing, or less
+// What is set aside beyond the overlaps that are expected.
+constexpr double kSpare = 1.1;
 
 // Corners nearer than this are the same: the last bits depend on the order of a triangle's corners.
 constexpr double kSame = 1e-15;
@@ -37,10 +39,16 @@ struct Plan {
   const Tiling& source;
   const Tiling& target;
   std::vector<Index> order;          // targets along a Hilbert curve
-  Array<Index> home;                 // [n_targets] the source that holds the target's centre
-  Array<std::uint8_t> is_unchanged;  // [n_targets] its home is its twin
+  Array<std::uint8_t> is_unchanged;  // [n_targets] it has a twin
   Array<std::uint8_t> is_taken;      // [n_sources] it has a twin
 };
+
+Plan plan_search(Context& context, const Tiling& source, const Tiling& target) {
+  Plan plan{source, target, hilbert_order(context.exec, target.centres()), {}, {}};
+  plan.is_unchanged.resize(at(target.size()));
+  plan.is_taken.assign(at(source.size()), 0);
+  return plan;
+}
 
 bool are_twins(const Tiling& a, std::int64_t i, const Tiling& b, std::int64_t j) {
   const auto p = a.corners(i), q = b.corners(j);
@@ -59,60 +67,18 @@ bool are_twins(const Tiling& a, std::int64_t i, const Tiling& b, std::int64_t j)
   return false;
 }
 
-void find_homes(Context& context, Plan& plan) {
-  plan.order = hilbert_order(context.exec, plan.target.centres());
-  plan.home.resize(at(plan.target.size()));
-  plan.is_unchanged.resize(at(plan.target.size()));
-  plan.is_taken.assign(at(plan.source.size()), 0);
-  parallel::for_range(context.exec, plan.target.size(), kBlock,
-                      [&](std::int64_t begin, std::int64_t end) {
-                        const auto& centres = plan.target.centres();
-                        Index here = start_near(plan.source, centres[at(plan.order[at(begin)])]);
-                        for (std::int64_t k = begin; k < end; ++k) {
-                          const Index i = plan.order[at(k)];
-                          here = walk(plan.source, centres[at(i)], here);
-                          plan.home[at(i)] = here;
-                          plan.is_unchanged[at(i)] = are_twins(plan.target, i, plan.source, here);
-                          if (plan.is_unchanged[at(i)]) plan.is_taken[at(here)] = 1;
-                        }
-                      });
-}
-
-// The sources seen around one target: a small table, found by hashing.
-class Seen {
+// Has what sources will need fetched, one after the other.
+class Lookahead {
  public:
-  void clear() {
-    std::fill(slots_.begin(), slots_.end(), kNone);
-    n_ = 0;
-  }
-  /// True the first time.
-  bool add(Index id) {
-    if (2 * (n_ + 1) > slots_.size()) grow();
-    return put(id);
+  /// `now`: the one that is worked on.
+  void prefetch(const Tiling& tiling, std::span<const Index> ids, std::size_t now) {
+    for (; placed_ < ids.size(); ++placed_) tiling.prefetch_place(ids[placed_]);
+    for (; listed_ < std::min(now + 4, ids.size()); ++listed_) tiling.prefetch_lists(ids[listed_]);
+    for (; named_ < std::min(now + 3, ids.size()); ++named_) tiling.prefetch_corners(ids[named_]);
   }
 
  private:
-  bool put(Index id) {
-    const std::size_t mask = slots_.size() - 1;
-    std::size_t slot = (static_cast<std::uint32_t>(id) * 2654435769U >> 7) & mask;
-    while (slots_[slot] != kNone) {
-      if (slots_[slot] == id) return false;
-      slot = (slot + 1) & mask;
-    }
-    slots_[slot] = id;
-    ++n_;
-    return true;
-  }
-  void grow() {
-    const std::vector<Index> old =
-        std::exchange(slots_, std::vector<Index>(2 * slots_.size(), kNone));
-    n_ = 0;
-    for (const Index id : old) {
-      if (id != kNone) put(id);
-    }
-  }
-  std::vector<Index> slots_ = std::vector<Index>(64, kNone);
-  std::size_t n_ = 0;
+  std::size_t placed_ = 1, listed_ = 1, named_ = 1;  // how many have their place, lists, corners
 };
 
 // Finds all sources of one target after another.
@@ -120,15 +86,15 @@ class Search {
  public:
   explicit Search(const Plan& plan) : plan_(plan) {}
 
-  /// Relative gap between the target's area and what was found.
-  double run(Index target, std::vector<Found>& found) {
+  /// `home`: the source that holds the target's centre. Relative gap between the target's area and
+  /// what was found.
+  double run(Index target, Index home, std::vector<Found>& found) {
     if (plan_.is_unchanged[at(target)]) {
-      found = {{plan_.home[at(target)], plan_.source.area_m2()[at(plan_.home[at(target)])],
-                Vec3::Zero()}};
+      found = {{home, plan_.source.area_m2()[at(home)], Vec3::Zero()}};
       return 0.0;
     }
-    double gap = spread(target, false, found);
-    if (gap > kLookAgain) gap = spread(target, true, found);
+    double gap = spread(target, home, false, found);
+    if (gap > kLookAgain) gap = spread(target, home, true, found);
     std::sort(found.begin(), found.end(),
               [](const Found& a, const Found& b) { return a.source < b.source; });
     return gap;
@@ -136,32 +102,28 @@ class Search {
 
  private:
   // From the home over the sides that the intersections end at or, `everywhere`, over all sides.
-  double spread(Index target, bool everywhere, std::vector<Found>& found) {
+  double spread(Index target, Index home, bool everywhere, std::vector<Found>& found) {
     found.clear();
     seen_.clear();
     if (!clipper_.begin(plan_.target, target)) return 1.0;
     const double area_m2 = plan_.target.area_m2()[at(target)];
     double sum_m2 = 0.0;
-    queue_ = {plan_.home[at(target)]};
-    seen_.add(queue_[0]);
-    for (std::size_t next = 0; next < queue_.size(); ++next) {
-      const Index source = queue_[next];
+    seen_.place_of(home);
+    Lookahead ahead;
+    for (std::size_t next = 0; next < seen_.ids().size(); ++next) {
+      const Index source = seen_.ids()[next];
       const auto corners = clipper_.clip(plan_.source, source);
       const auto neighbours = plan_.source.neighbours(source);
       if (everywhere && (next == 0 || corners.size() >= 3)) {
-        for (const Index beside : neighbours) enqueue(beside);
+        for (const Index beside : neighbours) seen_.place_of(beside);
       }
       for (const Corner& corner : corners) {
-        if (corner.side >= 0) enqueue(neighbours[at(corner.side)]);
+        if (corner.side >= 0) seen_.place_of(neighbours[at(corner.side)]);
       }
-      if (corners.size() >= 3 && !plan_.is_taken[at(source)]) {
-        sum_m2 += add(source, target, corners, found);
-      }
+      ahead.prefetch(plan_.source, seen_.ids(), next);
+      if (corners.size() >= 3) sum_m2 += add(source, target, corners, found);
     }
     return std::abs(sum_m2 / area_m2 - 1.0);
-  }
-  void enqueue(Index source) {
-    if (seen_.add(source)) queue_.push_back(source);
   }
   double add(Index source, Index target, std::span<const Corner> corners,
              std::vector<Found>& found) {
@@ -183,12 +145,11 @@ class Search {
 
   const Plan& plan_;
   Clipper clipper_;
-  Seen seen_;
-  std::vector<Index> queue_;
+  FirstSeen seen_;  // in the order in which they are tried
 };
 
 struct Block {
-  std::vector<Found> found;
+  std::vector<Found> found;  // target by target
   double largest_gap = 0.0;
   Index worst = kNone;
 };
@@ -203,49 +164,102 @@ void check_gap(const Plan& plan, const Block& block) {
                    " degrees: transfer needs closed grids of convex cells; check both grids."));
 }
 
-// Blocks first, in the order of the curve; then every target's overlaps to their place.
-void collect(Context& context, const Plan& plan, Overlaps& overlaps) {
+// Where the overlaps of each target are.
+struct Pieces {
+  std::vector<Block> blocks;  // along the curve
+  Array<std::int64_t> first;  // [n_targets] in its block
+  Array<Index> count;         // [n_targets]
+  std::int64_t n_unchanged = 0;
+};
+
+// What targets along the curve will need, in three steps of which each needs the one before.
+void prefetch_ahead(const Plan& plan, std::int64_t k) {
   const std::int64_t n = plan.target.size();
-  std::vector<Block> blocks(at((n + kBlock - 1) / kBlock));
-  Array<std::int64_t> first(at(n));
-  Array<Index> count(at(n));
+  if (k + 2 < n) plan.target.prefetch_corners(plan.order[at(k + 2)]);
+  if (k + 4 < n) plan.target.prefetch_lists(plan.order[at(k + 4)]);
+  if (k + 8 < n) plan.target.prefetch_place(plan.order[at(k + 8)]);
+}
+
+// Overlaps of a target: sources inside it, and those that its sides cross.
+double n_expected(const Plan& plan) {
+  const double sources = static_cast<double>(plan.source.size()) / plan.target.size();
+  return kSpare * (1.0 + std::sqrt(sources)) * (1.0 + std::sqrt(sources));
+}
+
+Block search_block(Plan& plan, std::int64_t begin, std::int64_t end, Pieces& pieces) {
+  const auto& centres = plan.target.centres();
+  Block block;
+  block.found.reserve(at(static_cast<std::int64_t>(n_expected(plan) * (end - begin))));
+  Search search(plan);
+  std::vector<Found> found;
+  Index home = start_near(plan.source, centres[at(plan.order[at(begin)])]);
+  for (std::int64_t k = begin; k < end; ++k) {
+    prefetch_ahead(plan, k);
+    const Index target = plan.order[at(k)];
+    home = walk(plan.source, centres[at(target)], home);
+    plan.is_unchanged[at(target)] = are_twins(plan.target, target, plan.source, home);
+    if (plan.is_unchanged[at(target)]) plan.is_taken[at(home)] = 1;
+    const double gap = search.run(target, home, found);
+    if (gap > block.largest_gap) {
+      block.largest_gap = gap;
+      block.worst = target;
+    }
+    pieces.first[at(target)] = static_cast<std::int64_t>(block.found.size());
+    pieces.count[at(target)] = static_cast<Index>(found.size());
+    block.found.insert(block.found.end(), found.begin(), found.end());
+  }
+  return block;
+}
+
+Pieces find_pieces(Context& context, Plan& plan) {
+  const std::int64_t n = plan.target.size();
+  Pieces pieces;
+  pieces.blocks.resize(at((n + kBlock - 1) / kBlock));
+  pieces.first.resize(at(n));
+  pieces.count.resize(at(n));
   parallel::for_range(context.exec, n, kBlock, [&](std::int64_t begin, std::int64_t end) {
     context.monitor.check_cancelled();
-    Block& block = blocks[at(begin / kBlock)];
-    Search search(plan);
-    block.found.reserve(kExpected * at(end - begin));
-    std::vector<Found> found;
-    for (std::int64_t k = begin; k < end; ++k) {
-      const Index target = plan.order[at(k)];
-      const double gap = search.run(target, found);
-      if (gap > block.largest_gap) {
-        block.largest_gap = gap;
-        block.worst = target;
-      }
-      first[at(target)] = static_cast<std::int64_t>(block.found.size());
-      count[at(target)] = static_cast<Index>(found.size());
-      block.found.insert(block.found.end(), found.begin(), found.end());
-    }
+    pieces.blocks[at(begin / kBlock)] = search_block(plan, begin, end, pieces);
     context.monitor.advance(end - begin);
   });
-  for (const Block& block : blocks) {
+  for (const std::uint8_t is_unchanged : plan.is_unchanged) pieces.n_unchanged += is_unchanged;
+  return pieces;
+}
+
+// What has a twin overlaps that alone: the slivers that others have of it are rounding.
+void drop_taken(parallel::Executor& exec, const Plan& plan, Pieces& pieces) {
+  if (pieces.n_unchanged == 0) return;
+  parallel::for_index(exec, plan.target.size(), kCopyGrain, [&](std::int64_t k) {
+    const Index target = plan.order[at(k)];
+    if (plan.is_unchanged[at(target)]) return;
+    Found* const found = pieces.blocks[at(k / kBlock)].found.data() + pieces.first[at(target)];
+    Found* const end = found + pieces.count[at(target)];
+    const auto is_taken = [&](const Found& one) { return plan.is_taken[at(one.source)] != 0; };
+    pieces.count[at(target)] = static_cast<Index>(std::remove_if(found, end, is_taken) - found);
+  });
+}
+
+// Every target's overlaps to their place.
+void collect(parallel::Executor& exec, const Plan& plan, const Pieces& pieces, Overlaps& overlaps) {
+  for (const Block& block : pieces.blocks) {
     check_gap(plan, block);
     overlaps.largest_gap = std::max(overlaps.largest_gap, block.largest_gap);
   }
+  const std::int64_t n = plan.target.size();
+  overlaps.n_unchanged = pieces.n_unchanged;
   overlaps.offsets.resize(at(n) + 1);
   overlaps.offsets[0] = 0;
   for (std::int64_t i = 0; i < n; ++i) {
-    overlaps.offsets[at(i) + 1] = overlaps.offsets[at(i)] + count[at(i)];
-    overlaps.n_unchanged += plan.is_unchanged[at(i)];
+    overlaps.offsets[at(i) + 1] = overlaps.offsets[at(i)] + pieces.count[at(i)];
   }
   const std::size_t n_overlaps = at(overlaps.offsets[at(n)]);
   overlaps.source.resize(n_overlaps);
   overlaps.area_m2.resize(n_overlaps);
   overlaps.middle.resize(n_overlaps);
-  parallel::for_index(context.exec, n, kCopyGrain, [&](std::int64_t k) {
+  parallel::for_index(exec, n, kCopyGrain, [&](std::int64_t k) {
     const Index target = plan.order[at(k)];
-    const Found* found = blocks[at(k / kBlock)].found.data() + first[at(target)];
-    for (Index j = 0; j < count[at(target)]; ++j) {
+    const Found* found = pieces.blocks[at(k / kBlock)].found.data() + pieces.first[at(target)];
+    for (Index j = 0; j < pieces.count[at(target)]; ++j) {
       const std::size_t entry = at(overlaps.offsets[at(target)] + j);
       overlaps.source[entry] = found[j].source;
       overlaps.area_m2[entry] = found[j].area;
@@ -284,14 +298,17 @@ Overlaps intersect(Context& context, const Tiling& source, const Tiling& target)
               ErrorKind::input, "the grids lie on different surfaces, of largest radius ",
               source.surface().scale_m(), " m and ", target.surface().scale_m(),
               " m: transfer needs one surface; generate both grids with the same radii.");
-  Plan plan{source, target, {}, {}, {}, {}};
-  find_homes(context, plan);
   Overlaps overlaps;
   overlaps.n_sources = source.size();
   overlaps.n_targets = target.size();
   overlaps.source_area_m2.assign(source.area_m2().begin(), source.area_m2().end());
   overlaps.target_area_m2.assign(target.area_m2().begin(), target.area_m2().end());
-  collect(context, plan, overlaps);
+  {
+    Plan plan = plan_search(context, source, target);
+    Pieces pieces = find_pieces(context, plan);
+    drop_taken(context.exec, plan, pieces);
+    collect(context.exec, plan, pieces, overlaps);
+  }
   const ByKey of_sources = by_source(context.exec, overlaps);
   overlaps.n_balancing = balance(context.exec, of_sources, overlaps);
   centre_middles(context.exec, of_sources, overlaps);

@@ -14,16 +14,10 @@ void check_closed(const Grid& grid) {
               "between the grids before they are culled.");
 }
 
-}  // namespace
-
-Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
-  check_closed(grid);
-  Tiling tiling;
-  tiling.grid_ = &grid;
-  tiling.corner_position_ = grid.vertex_position;
-  tiling.area_m2_ = grid.cell_area_m2;
+// Of the first cell of each edge.
+Array<double> bows_of_edges(parallel::Executor& exec, const Grid& grid) {
   const bool is_sphere = grid.surface.is_sphere();
-  tiling.bow_of_edge_.resize(at(grid.n_edges()));
+  Array<double> bow(at(grid.n_edges()));
   parallel::for_index(exec, grid.n_edges(), kTriangleGrain, [&](std::int64_t edge) {
     const auto [c, d] = grid.cells_on_edge[at(edge)];
     const auto [v, w] = grid.vertices_on_edge[at(edge)];
@@ -34,8 +28,27 @@ Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
                             : grid.edge_position[at(edge)];
     // Surface over solid angle: |W y| where y W y = 1, and 1 on the sphere.
     const double density = from.cwiseProduct(grid.surface.inverse_square()).norm();
-    tiling.bow_of_edge_[at(edge)] =
+    bow[at(edge)] =
         0.5 * density * from.dot((middle - from).cross(grid.vertex_position[at(w)] - from));
+  });
+  return bow;
+}
+
+}  // namespace
+
+Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
+  check_closed(grid);
+  Tiling tiling;
+  tiling.grid_ = &grid;
+  tiling.corner_position_ = grid.vertex_position;
+  tiling.area_m2_ = grid.cell_area_m2;
+  const Array<double> of_edge = bows_of_edges(exec, grid);
+  tiling.bow_.resize(grid.edges_on_cell.values.size());
+  parallel::for_index(exec, grid.n_cells(), kTriangleGrain, [&](std::int64_t i) {
+    double* bow = tiling.bow_.data() + grid.edges_on_cell.offsets.begin_of(i);
+    for (const Index edge : grid.edges_on_cell.row(i)) {
+      *bow++ = grid.cells_on_edge[at(edge)][0] == i ? of_edge[at(edge)] : -of_edge[at(edge)];
+    }
   });
   return tiling;
 }

@@ -5,6 +5,7 @@
 
 #include "core/array.hpp"
 #include "core/parallel.hpp"
+#include "core/prefetch.hpp"
 #include "dual/grid.hpp"
 
 namespace delos::remap {
@@ -36,20 +37,42 @@ class Tiling {
   /// What polygon i has beyond its straight side k, scaled area: where rounding, relative to the
   /// square of the spacing, put the grid's edge off that side. Opposite in the neighbour.
   double bow(std::int64_t i, std::size_t k) const {
-    if (bow_of_edge_.empty()) return 0.0;
-    const Index edge = grid_->edges_on_cell.row(i)[k];
-    const double bow = bow_of_edge_[static_cast<std::size_t>(edge)];
-    return grid_->cells_on_edge[static_cast<std::size_t>(edge)][0] == i ? bow : -bow;
+    return bow_.empty() ? 0.0 : bow_[at(grid_->edges_on_cell.offsets.begin_of(i)) + k];
   }
   /// As in the grid, [size()].
   std::span<const double> area_m2() const { return area_m2_; }
+
+  /// Hints for a polygon that will be needed: where it is, some rounds later its lists, then what
+  /// these name.
+  void prefetch_place(std::int64_t i) const {
+    prefetch(centres()[at(i)]);
+    prefetch(area_m2_[at(i)]);
+    if (of_cells_) prefetch(grid_->vertices_on_cell.offsets.positions()[at(i)]);
+  }
+  void prefetch_lists(std::int64_t i) const {
+    const auto corner_ids = corners(i), beside = neighbours(i);
+    prefetch(corner_ids.front());
+    prefetch(corner_ids.back());
+    prefetch(beside.front());
+    prefetch(beside.back());
+    if (bow_.empty()) return;
+    const double* bow = &bow_[at(grid_->edges_on_cell.offsets.begin_of(i))];
+    prefetch(bow[0]);
+    prefetch(bow[corner_ids.size() - 1]);
+  }
+  void prefetch_corners(std::int64_t i) const {
+    for (const Index id : corners(i)) {
+      prefetch(corner(id).x());
+      prefetch(corner(id).z());
+    }
+  }
 
  private:
   const Grid* grid_ = nullptr;
   bool of_cells_ = true;
   std::span<const Vec3> corner_position_;
   std::span<const double> area_m2_;
-  Array<double> bow_of_edge_;                    // of its first cell; empty for triangles
+  Array<double> bow_;                            // side by side; empty for triangles
   Array<std::array<Index, 3>> beside_triangle_;  // empty for cells
   Array<Vec3> own_centre_;                       // empty for cells
 };

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "remap/first_seen.hpp"
+
 namespace delos::remap {
 namespace {
 
@@ -144,37 +146,45 @@ struct Weight {
 };
 
 // Weights of one target to second order, columns ascending and each once.
-void second_order_row(const Rows& rows, const GradientStencils& stencils, std::int64_t i,
-                      std::vector<Weight>& row) {
-  row.clear();
-  double area = 0.0;
-  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) area += rows.overlaps.area_m2[at(k)];
-  for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
-    const double weight = rows.overlaps.area_m2[at(k)] / area;
-    double own = weight;
-    if (!rows.is_copy(i)) {
-      const Vec3& middle = rows.overlaps.middle[at(k)];
-      const std::int64_t source = rows.source(k);
-      for (auto l = stencils.offsets[at(source)]; l < stencils.offsets[at(source) + 1]; ++l) {
-        const double part = weight * middle.dot(stencils.coefficient[at(l)]);
-        own -= part;
-        row.push_back({stencils.neighbour[at(l)], part});
+class SecondOrderRow {
+ public:
+  const std::vector<Weight>& make(const Rows& rows, const GradientStencils& stencils,
+                                  std::int64_t i) {
+    row_.clear();
+    columns_.clear();
+    double area = 0.0;
+    for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) area += rows.overlaps.area_m2[at(k)];
+    for (std::int64_t k = rows.begin(i); k < rows.end(i); ++k) {
+      const double weight = rows.overlaps.area_m2[at(k)] / area;
+      double own = weight;
+      if (!rows.is_copy(i)) {
+        const Vec3& middle = rows.overlaps.middle[at(k)];
+        const std::int64_t source = rows.source(k);
+        for (auto l = stencils.offsets[at(source)]; l < stencils.offsets[at(source) + 1]; ++l) {
+          const double part = weight * middle.dot(stencils.coefficient[at(l)]);
+          own -= part;
+          add(stencils.neighbour[at(l)], part);
+        }
       }
+      add(rows.source(k), own);
     }
-    row.push_back({rows.source(k), own});
+    std::sort(row_.begin(), row_.end(),
+              [](const Weight& a, const Weight& b) { return a.column < b.column; });
+    return row_;
   }
-  std::stable_sort(row.begin(), row.end(),
-                   [](const Weight& a, const Weight& b) { return a.column < b.column; });
-  std::size_t n = 0;
-  for (const Weight& weight : row) {
-    if (n > 0 && row[n - 1].column == weight.column) {
-      row[n - 1].value += weight.value;
+
+ private:
+  void add(Index column, double value) {
+    const std::size_t place = columns_.place_of(column);
+    if (place == row_.size()) {
+      row_.push_back({column, value});
     } else {
-      row[n++] = weight;
+      row_[place].value += value;
     }
   }
-  row.resize(n);
-}
+  std::vector<Weight> row_;
+  FirstSeen columns_;
+};
 
 }  // namespace
 
@@ -206,10 +216,10 @@ Weights Transfer::weights(parallel::Executor& exec, Order order) const {
   weights.offsets.resize(at(n) + 1);
   weights.offsets[0] = 0;
   parallel::for_range(exec, n, kOverlapGrain, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Weight> row;
+    SecondOrderRow maker;
     auto& block = blocks[at(begin / kOverlapGrain)];
     for (std::int64_t i = begin; i < end; ++i) {
-      second_order_row(rows, stencils_, i, row);
+      const std::vector<Weight>& row = maker.make(rows, stencils_, i);
       weights.offsets[at(i) + 1] = static_cast<std::int64_t>(row.size());
       block.insert(block.end(), row.begin(), row.end());
     }

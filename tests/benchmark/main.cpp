@@ -12,6 +12,7 @@
 #include "benchmark/cases.hpp"
 #include "benchmark/child.hpp"
 #include "benchmark/measure.hpp"
+#include "benchmark/remap_cases.hpp"
 #include "benchmark/remesh_cases.hpp"
 #include "benchmark/sizing_cases.hpp"
 #include "io/data_files.hpp"
@@ -29,6 +30,7 @@ constexpr char kUsage[] =
     "  --label TEXT     stands in the line on the machine, e.g. the commit\n"
     "  --sizing         the kernels of the sizing layer instead; CASE names some of them\n"
     "  --remesh         local remeshes beside fresh meshes instead; CASE names some of them\n"
+    "  --remap          weights between two grids instead; CASE names some of them\n"
     "  --list           names of the cases, nothing is run\n";
 
 struct Arguments {
@@ -38,6 +40,7 @@ struct Arguments {
   bool with_large = false;
   bool only_sizing = false;
   bool only_remesh = false;
+  bool only_remap = false;
   bool only_lists = false;
   std::string label;
 };
@@ -82,6 +85,8 @@ Arguments parse(const std::vector<std::string>& words) {
       arguments.only_sizing = true;
     } else if (words[i] == "--remesh") {
       arguments.only_remesh = true;
+    } else if (words[i] == "--remap") {
+      arguments.only_remap = true;
     } else if (words[i] == "--list") {
       arguments.only_lists = true;
     } else if (words[i].rfind("--", 0) == 0) {
@@ -234,9 +239,41 @@ bool run_remesh(const Arguments& arguments) {
   return is_good;
 }
 
+/// Weights between grids; false when the bits of one depend on the threads. Rates are of processor
+/// seconds on one thread, of wall time on more, as in add_rates().
+bool run_remap(const Arguments& arguments) {
+  bool is_good = true;
+  std::string name, digest;
+  const auto timings = time_remap(arguments.threads, arguments.repeats, arguments.names);
+  if (timings.empty()) throw std::invalid_argument("no such remap");
+  for (const RemapTiming& timing : timings) {
+    Json line = {{"remap", timing.name},          {"threads", timing.threads},
+                 {"sources", timing.n_sources},   {"targets", timing.n_targets},
+                 {"overlaps", timing.n_overlaps}, {"digest", timing.digest}};
+    const auto n = static_cast<double>(timing.n_overlaps);
+    for (const PhaseTime& phase : timing.phases) {
+      const double seconds = timing.threads == 1 ? phase.cpu_s : phase.wall_s;
+      line[phase.phase + "_s"] = seconds;
+    }
+    const auto sum = [&](std::initializer_list<const char*> phases) {
+      double seconds = 0.0;
+      for (const std::string phase : phases) seconds += line.at(phase + "_s").get<double>();
+      return seconds;
+    };
+    line["first_overlaps_per_s"] = n / sum({"intersect", "first"});
+    line["second_overlaps_per_s"] = n / sum({"intersect", "gradients", "second"});
+    print(line);
+    is_good = is_good && (timing.name != name || timing.digest == digest);
+    name = timing.name;
+    digest = timing.digest;
+  }
+  return is_good;
+}
+
 int run_all(const Arguments& arguments) {
   if (arguments.only_sizing) return run_sizing(arguments) ? 0 : 1;
   if (arguments.only_remesh) return run_remesh(arguments) ? 0 : 1;
+  if (arguments.only_remap) return run_remap(arguments) ? 0 : 1;
   const std::vector<Case> cases = chosen(arguments);
   if (arguments.only_lists) {
     print_names();

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "adapt/remesh.hpp"
+#include "benchmark/fresh_mesh.hpp"
 #include "core/elementary.hpp"
 #include "sizing/nodes.hpp"
 #include "sizing/raster.hpp"
@@ -65,13 +66,6 @@ double seconds_of(const std::function<void()>& body) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-Mesh fresh(Context& context, const Ellipsoid& surface, const SpacingField& spacing) {
-  RefineReport report;
-  Mesh mesh = refine(context, surface, spacing, {}, report);
-  relax(context, surface, spacing, {}, mesh);
-  return mesh;
-}
-
 RemeshTiming timed(const Scene& scene, int threads, int rounds) {
   parallel::Executor exec(threads);
   const Ellipsoid surface = Ellipsoid::sphere(kRadius);
@@ -84,10 +78,10 @@ RemeshTiming timed(const Scene& scene, int threads, int rounds) {
   out.fresh_s = out.remesh_s = std::numeric_limits<double>::infinity();
   Monitor quiet;
   Context context{exec, quiet};
-  const Mesh old = fresh(context, surface, before);
+  const Mesh old = fresh_mesh(context, surface, before);
   out.n_before = old.n_vertices();
   for (int round = 0; round < rounds; ++round) {
-    out.fresh_s = std::min(out.fresh_s, seconds_of([&] { fresh(context, surface, after); }));
+    out.fresh_s = std::min(out.fresh_s, seconds_of([&] { fresh_mesh(context, surface, after); }));
     Monitor monitor;
     Context watched{exec, monitor};
     RemeshReport report;
