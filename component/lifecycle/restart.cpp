@@ -28,6 +28,8 @@ constexpr const char* kClock = "clock";
 constexpr const char* kComponentClock = "component_clock";
 constexpr const char* kVertices = "vertices";
 constexpr const char* kTriangles = "triangles";
+constexpr const char* kFixedOffsets = "fixed_offsets";
+constexpr const char* kFixedEnds = "fixed_ends";
 constexpr const char* kDomain = "domain_cells";
 constexpr const char* kLayers = "layer_heights";
 constexpr const char* kNotes = "report_notes";
@@ -109,6 +111,16 @@ std::vector<RestartArray> arrays_of(const Restart& state, const Content& content
   if (!content.component_clock.empty()) {
     out.push_back({kComponentClock, "the component's, as clock",
                    std::span<const std::int64_t>(content.component_clock)});
+  }
+  const FixedEdges& fixed = product.mesh.fixed;
+  if (fixed.n_vertices() > 0) {
+    out.push_back({kFixedOffsets,
+                   "[n_fixed + 1] the first vertices stay; where the ends of each are",
+                   std::span<const std::int32_t>(fixed.offsets)});
+  }
+  if (!fixed.ends.empty()) {
+    out.push_back({kFixedEnds, "the other ends of the edges that stay, from 0",
+                   std::span<const std::int32_t>(fixed.ends)});
   }
   if (product.domain) {
     out.push_back({kDomain, "[n_cells] the vertex, from 0, of each cell of the culled grid",
@@ -219,6 +231,20 @@ void check_config(const RestartFile& file, const Settings& settings) {
            ". Restore those settings, or start anew."));
 }
 
+FixedEdges read_fixed(const RestartFile& file) {
+  FixedEdges out;
+  if (!file.has(kFixedOffsets)) return out;
+  out.offsets = file.ids(kFixedOffsets);
+  if (file.has(kFixedEnds)) out.ends = file.ids(kFixedEnds);
+  const auto is_id = [&](Index end) { return out.has_vertex(end) && end >= 0; };
+  DELOS_CHECK(out.offsets.front() == 0 && std::is_sorted(out.offsets.begin(), out.offsets.end()) &&
+                  at(out.offsets.back()) == out.ends.size() &&
+                  std::all_of(out.ends.begin(), out.ends.end(), is_id),
+              ErrorKind::input, "the restart file ", file.path(), " has ", kFixedOffsets, " and ",
+              kFixedEnds, " that do not fit each other. Take another one.");
+  return out;
+}
+
 Mesh read_mesh(const RestartFile& file) {
   const std::vector<double> numbers = file.doubles(kVertices);
   Array<Vertex> vertices(numbers.size() / kVertexNumbers);
@@ -231,7 +257,9 @@ Mesh read_mesh(const RestartFile& file) {
   for (std::size_t i = 0; i < corners.size(); ++i) {
     corners[i] = {ids[kCorners * i], ids[kCorners * i + 1], ids[kCorners * i + 2]};
   }
-  return mesh_from_triangles(std::move(vertices), corners);
+  Mesh mesh = mesh_from_triangles(std::move(vertices), corners);
+  mesh.fixed = read_fixed(file);
+  return mesh;
 }
 
 std::optional<LatLonField> read_table(const RestartFile& file, const std::string& name) {
@@ -297,6 +325,9 @@ SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
   SpacingField spacing =
       scaled ? SpacingField::of_scaled(exec, settings.surface, settings.latitude, *scaled)
              : SpacingField::table(exec, settings.surface, settings.latitude, *table_m);
+  DELOS_CHECK(settings.constraints.empty() || file.has(kFixedOffsets), ErrorKind::input,
+              "the restart file ", file.path(), " does not hold the lines of `constraints` (",
+              kFixedOffsets, "): an older delos wrote it. Start anew.");
   std::vector<Index> cells;
   if (settings.domain) cells = file.ids(kDomain);
   std::vector<double> heights;

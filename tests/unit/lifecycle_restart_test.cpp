@@ -35,6 +35,11 @@ constexpr const char* kVariable =
     "km}\n"
     "refine: {tile_vertices: 500}\n";
 
+/// A line and a point that stay.
+constexpr const char* kCoastline =
+    "constraints: {shapes: [{type: line, points: [170 deg, -20 deg, 150 deg, -60 deg]}, "
+    "{type: points, points: [180 deg, 60 deg]}]}\n";
+
 Settings settings_of(const std::string& yaml) {
   return read_settings(parse_config(yaml, "test.yaml"), ".");
 }
@@ -79,6 +84,8 @@ struct Run {
 void check_same(const Run& one, const Run& other) {
   const Product &mine = *one.component.product(), &theirs = *other.component.product();
   CHECK(digest(mine.mesh) == digest(theirs.mesh));
+  CHECK(mine.mesh.fixed.offsets == theirs.mesh.fixed.offsets);
+  CHECK(mine.mesh.fixed.ends == theirs.mesh.fixed.ends);
   parallel::Executor exec(1);
   CHECK(digest(exec, *mine.grid) == digest(exec, *theirs.grid));
   CHECK(mine.grid->edge_spacing_m == theirs.grid->edge_spacing_m);
@@ -129,6 +136,7 @@ TEST_CASE("a restart at any step with other threads is the straight run to the l
   check_restarts(std::string(kConstant) + "output: {spacing: true}\n");
   check_restarts(std::string(kConstant) + "layers: {kind: z_level}\noutput: {partitions: [3]}\n");
   check_restarts(std::string(kConstant) + "layers: {kind: terrain_following}\n");
+  check_restarts(std::string(kConstant) + kCoastline);
 }
 
 TEST_CASE("a component that was finalized restarts, and its generation is the file's") {
