@@ -5,6 +5,7 @@
 using delos::c::call;
 using delos::c::need;
 using delos::c::need_handle;
+using delos::c::or_defaults;
 using delos::c::transfer_options;
 using delos::c::values_of;
 using delos::c::velocity_route;
@@ -39,27 +40,27 @@ int delos_transfer_check(const delos_transfer* transfer, const delos_grid* from,
   });
 }
 
-// NOLINTNEXTLINE(readability-function-size): arrays and their sizes, as everywhere in C
+// NOLINTBEGIN(readability-function-size): arrays and their sizes, as everywhere in C
 int delos_transfer_apply(const delos_transfer* transfer, const double* from, int64_t n_from_values,
                          double* to, int64_t n_to_values, const delos_transfer_options* options) {
   return call(transfer, __func__, [&] {
-    const delos_transfer_options given = options == nullptr ? delos_transfer_options{} : *options;
     transfer->transfer->apply(values_of(from, n_from_values, "from"),
-                              values_of(to, n_to_values, "to"), transfer_options(given));
+                              values_of(to, n_to_values, "to"),
+                              transfer_options(or_defaults(options)));
   });
 }
 
-// NOLINTNEXTLINE(readability-function-size): arrays and their sizes, as everywhere in C
 int delos_transfer_apply_velocity(const delos_transfer* transfer, const double* from,
                                   int64_t n_from_values, double* to, int64_t n_to_values,
                                   const delos_transfer_options* options) {
   return call(transfer, __func__, [&] {
-    const delos_transfer_options given = options == nullptr ? delos_transfer_options{} : *options;
+    const delos_transfer_options given = or_defaults(options);
     transfer->transfer->apply_velocity(values_of(from, n_from_values, "from"),
                                        values_of(to, n_to_values, "to"), velocity_route(given),
                                        transfer_options(given));
   });
 }
+// NOLINTEND(readability-function-size)
 
 int delos_transfer_n_overlaps(const delos_transfer* transfer, int64_t* n) {
   return call(transfer, __func__, [&] {

@@ -27,6 +27,11 @@ inline TransferOptions transfer_options(const delos_transfer_options& options) {
           .n_levels = options.n_levels == 0 ? 1 : options.n_levels};
 }
 
+/// Without options all are what their zeros mean.
+inline delos_transfer_options or_defaults(const delos_transfer_options* options) {
+  return options == nullptr ? delos_transfer_options{} : *options;
+}
+
 inline VelocityRoute velocity_route(const delos_transfer_options& options) {
   return chosen({VelocityRoute::vectors, VelocityRoute::stream_function}, options.velocity,
                 "velocity");

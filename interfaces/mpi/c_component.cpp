@@ -63,8 +63,7 @@ struct Carried {
 
 Carried carried(std::span<const double> former, std::span<double> values,
                 const delos_transfer_options* options) {
-  Carried out{former, values};
-  if (options != nullptr) out.given = *options;
+  Carried out{former, values, delos::c::or_defaults(options)};
   out.options = delos::c::transfer_options(out.given);
   return out;
 }
