@@ -69,8 +69,7 @@ void put_elements(parallel::Executor& exec, netcdf::Writer& file, const ElementC
   put_rows<double>(exec, file, {columns.centres, n, 2}, [&](std::int64_t cell, Reals out) {
     put_place(grid.cell_lon_lat[at(cell)], out);
   });
-  const double whole_m2 = grid.surface.area() * grid.surface.scale_m() * grid.surface.scale_m();
-  const double factor = 4.0 * kPi / whole_m2;
+  const double factor = square_radians_in_m2(grid.surface);
   put_rows<double>(exec, file, {columns.area, n}, [&](std::int64_t cell, Reals out) {
     out[0] = factor * grid.cell_area_m2[at(cell)];
   });
@@ -126,10 +125,7 @@ Ragged<Index> read_connection(const netcdf::Reader& file, std::size_t n_nodes) {
 
 void write_esmf_mesh(const std::string& path, const Grid& grid, const Provenance& provenance,
                      const EsmfMeshOptions& options) {
-  std::size_t width = 3;
-  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
-    width = std::max(width, grid.vertices_on_cell.row(cell).size());
-  }
+  const std::size_t width = longest_row(grid.vertices_on_cell.offsets);
   constexpr std::uint64_t kReal = 8, kId = 4;
   AtomicFile target(path,
                     static_cast<std::uint64_t>(grid.n_cells()) * (3 * kReal + (2 + width) * kId) +
@@ -164,12 +160,7 @@ FaceMesh read_esmf_mesh(const std::string& path) {
     DELOS_CHECK(mesh.face_centre.size() == n_faces, ErrorKind::input, path, ": centerCoords has ",
                 mesh.face_centre.size(), " rows for ", n_faces, " elements. The file is damaged.");
   }
-  if (file.has_variable("elementArea")) {
-    mesh.face_area_m2 = file.read_double("elementArea");
-    const Ellipsoid surface = mesh.ellipsoid.value_or(Ellipsoid());
-    const double factor = surface.area() * surface.scale_m() * surface.scale_m() / (4.0 * kPi);
-    for (double& area : mesh.face_area_m2) area *= factor;
-  }
+  read_areas(file, "elementArea", mesh);
   return mesh;
 }
 

@@ -7,6 +7,13 @@
 #include "core/error.hpp"
 
 namespace delos {
+namespace {
+
+double whole_m2(const Ellipsoid& surface) {
+  return surface.area() * surface.scale_m() * surface.scale_m();
+}
+
+}  // namespace
 
 void write_surface(netcdf::Writer& file, const Ellipsoid& surface, LatitudeKind latitude) {
   const Vec3 radii_m = surface.radii() * surface.scale_m();
@@ -15,6 +22,21 @@ void write_surface(netcdf::Writer& file, const Ellipsoid& surface, LatitudeKind 
                  latitude == LatitudeKind::geodetic     ? "geodetic"
                  : latitude == LatitudeKind::geocentric ? "geocentric"
                                                         : "parametric");
+}
+
+std::size_t longest_row(const RowOffsets& rows) {
+  std::int64_t longest = 1;
+  for (std::int64_t i = 0; i < rows.n_rows(); ++i) longest = std::max(longest, rows.length_of(i));
+  return at(longest);
+}
+
+double square_radians_in_m2(const Ellipsoid& surface) { return 4.0 * kPi / whole_m2(surface); }
+
+void read_areas(const netcdf::Reader& file, const std::string& variable, FaceMesh& mesh) {
+  if (!file.has_variable(variable)) return;
+  mesh.face_area_m2 = file.read_double(variable);
+  const double factor = whole_m2(mesh.ellipsoid.value_or(Ellipsoid())) / (4.0 * kPi);
+  for (double& area : mesh.face_area_m2) area *= factor;
 }
 
 void read_surface(const netcdf::Reader& file, FaceMesh& mesh) {

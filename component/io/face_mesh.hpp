@@ -24,7 +24,17 @@ struct FaceMesh {
 /// parametric), for formats that have no place of their own for the surface.
 void write_surface(netcdf::Writer& file, const Ellipsoid& surface, LatitudeKind latitude);
 
-/// The same, read back; what is not there stays as it was. Error(input) for radii that are none.
+/// Entries of the longest row: the width of a padded table, at least 1.
+std::size_t longest_row(const RowOffsets& rows);
+
+/// Areas in square radians, 4 pi in all on any body, as SCRIP and ESMF want them.
+double square_radians_in_m2(const Ellipsoid& surface);
+
+/// A variable in square radians as areas in m2 of the mesh's body, of the unit sphere when the file
+/// names none; what is not there leaves face_area_m2 as it was.
+void read_areas(const netcdf::Reader& file, const std::string& variable, FaceMesh& mesh);
+
+/// The surface, read back; what is not there stays as it was. Error(input) for radii that are none.
 void read_surface(const netcdf::Reader& file, FaceMesh& mesh);
 
 /// A whole variable in radians, by its units ("degrees" where it has none). Error(input) naming the

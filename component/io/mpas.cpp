@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "io/mpas.hpp"
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <charconv>
-#include <cmath>
-#include <fstream>
 #include <functional>
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
 #include "io/blocks.hpp"
+#include "io/face_mesh.hpp"
+#include "io/mpas_diagnostics.hpp"
 
 namespace delos {
 namespace {
@@ -27,14 +25,6 @@ constexpr int kVertexDegree = 3;
 template <class T>
 constexpr Type type_of() {
   return std::is_same_v<T, double> ? Type::float64 : Type::int32;
-}
-
-std::size_t max_edges_on_cell(const Grid& grid) {
-  std::int64_t most = 0;
-  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
-    most = std::max(most, grid.edges_on_cell.offsets.length_of(cell));
-  }
-  return at(most);
 }
 
 std::int64_t levels_of(const MpasOptions& options) {
@@ -54,7 +44,7 @@ class MpasFile {
     const double radius_m = grid.surface.scale_m();
     unit_m_ = options.on_unit_sphere ? radius_m : 1.0;
     radius_ = radius_m / unit_m_;
-    max_edges_ = max_edges_on_cell(grid);
+    max_edges_ = longest_row(grid.edges_on_cell.offsets);
     cells_ = file_.define_dimension("nCells", at(grid.n_cells()));
     edges_ = file_.define_dimension("nEdges", at(grid.n_edges()));
     vertices_ = file_.define_dimension("nVertices", at(grid.n_vertices()));
@@ -266,68 +256,17 @@ void MpasFile::add_measures() {
                     });
 }
 
-/// Smallest and largest of what was seen.
-struct Range {
-  double min = std::numeric_limits<double>::infinity(), max = 0.0;
-  void include(double value) {
-    min = std::min(min, value);
-    max = std::max(max, value);
-  }
-  double ratio() const { return max > 0.0 ? min / max : 0.0; }
-};
-
-Range dual_edges_of_cell(const Grid& grid, std::int64_t cell) {
-  Range range;
-  for (const Index edge : grid.edges_on_cell.row(cell)) {
-    range.include(grid.vertex_distance_m[at(edge)]);
-  }
-  return range;
-}
-
-double mean_distance_m(const Grid& grid, std::int64_t cell) {
-  const auto edges = grid.edges_on_cell.row(cell);
-  double sum = 0.0;
-  for (const Index edge : edges) sum += grid.cell_distance_m[at(edge)];
-  return edges.empty() ? 0.0 : sum / static_cast<double>(edges.size());
-}
-
-Range sides_of_triangle(const Grid& grid, std::int64_t vertex) {
-  Range range;
-  for (const Index edge : grid.edges_on_vertex[at(vertex)]) {
-    if (edge != kNone) range.include(grid.cell_distance_m[at(edge)]);
-  }
-  return range;
-}
-
-/// Plane angles in radians; nothing is seen when a corner is missing.
-Range angles_of_triangle(const Grid& grid, std::int64_t vertex) {
-  Range range;
-  const auto& cells = grid.cells_on_vertex[at(vertex)];
-  if (std::find(cells.begin(), cells.end(), kNone) != cells.end()) return range;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& corner = grid.cell_position[at(cells[k])];
-    const Vec3 u = grid.cell_position[at(cells[(k + 1) % 3])] - corner;
-    const Vec3 v = grid.cell_position[at(cells[(k + 2) % 3])] - corner;
-    range.include(std::atan2(u.cross(v).norm(), u.dot(v)));
-  }
-  return range;
-}
-
-// As the converter of MPAS-Tools defines them, but for triangleAngleQuality, where the converter
-// gives different values to congruent triangles: here it is the smallest angle / the largest. No
-// model reads them.
 void MpasFile::add_diagnostics() {
   const Grid& grid = grid_;
-  add<double>("cellQuality", cells_,
-              [&](std::int64_t i) { return dual_edges_of_cell(grid, i).ratio(); });
+  add<double>("cellQuality", cells_, [&](std::int64_t i) { return mpas::cell_quality(grid, i); });
   add<double>("gridSpacing", cells_,
-              [&](std::int64_t i) { return length(mean_distance_m(grid, i)); });
+              [&](std::int64_t i) { return length(mpas::mean_distance_m(grid, i)); });
   add<double>("triangleQuality", vertices_,
-              [&](std::int64_t i) { return sides_of_triangle(grid, i).ratio(); });
+              [&](std::int64_t i) { return mpas::triangle_quality(grid, i); });
   add<double>("triangleAngleQuality", vertices_,
-              [&](std::int64_t i) { return angles_of_triangle(grid, i).ratio(); });
+              [&](std::int64_t i) { return mpas::triangle_angle_quality(grid, i); });
   add<std::int32_t>("obtuseTriangle", vertices_,
-                    [&](std::int64_t i) { return angles_of_triangle(grid, i).max > 0.5 * kPi; });
+                    [&](std::int64_t i) { return mpas::is_obtuse(grid, i); });
   const Array<double>& spacing = grid.cell_spacing_m;
   const double finest = spacing.empty() ? 0.0 : *std::min_element(spacing.begin(), spacing.end());
   add<double>("meshDensity", cells_, [&spacing, finest](std::int64_t i) {
@@ -409,7 +348,8 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
   DELOS_CHECK(grid.surface.is_sphere(), ErrorKind::output, path,
               ": MPAS files know spheres only, "
               "this grid is on an ellipsoid. Map it to the sphere first, or write UGRID.");
-  AtomicFile target(path, size_bytes(grid.n_cells(), max_edges_on_cell(grid), levels_of(options)));
+  AtomicFile target(path, size_bytes(grid.n_cells(), longest_row(grid.edges_on_cell.offsets),
+                                     levels_of(options)));
   parallel::Executor alone(1);
   parallel::Executor& exec = options.exec != nullptr ? *options.exec : alone;
   target.fill([&](const std::string& temporary) {
@@ -425,35 +365,6 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
     if (options.terrain != nullptr) file.add_layers(*options.terrain);
     file.finish();
   });
-  target.commit();
-}
-
-void write_graph_info(const std::string& path, const Grid& grid) {
-  constexpr std::size_t kFlushBytes = std::size_t{1} << 20;
-  AtomicFile target(path);
-  std::ofstream stream(target.temporary(), std::ios::binary | std::ios::trunc);
-  const auto n_internal =
-      std::count_if(grid.cells_on_edge.begin(), grid.cells_on_edge.end(),
-                    [](const auto& cells) { return cells[0] != kNone && cells[1] != kNone; });
-  std::string lines = text(grid.n_cells(), " ", n_internal, "\n");
-  const auto append = [&lines](Index neighbour) {
-    std::array<char, 16> digits{};
-    const auto end = std::to_chars(digits.begin(), digits.end(), neighbour + 1).ptr;
-    lines.append(digits.begin(), end);
-    lines += ' ';
-  };
-  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
-    for (const Index neighbour : grid.cells_on_cell.row(cell)) {
-      if (neighbour != kNone) append(neighbour);
-    }
-    lines += '\n';
-    if (lines.size() < kFlushBytes && cell + 1 < grid.n_cells()) continue;
-    stream.write(lines.data(), static_cast<std::streamsize>(lines.size()));
-    lines.clear();
-  }
-  stream.close();
-  DELOS_CHECK(stream.good(), ErrorKind::output, "can't write ", path,
-              ": the disk may be full. Free some space, or choose another output folder.");
   target.commit();
 }
 

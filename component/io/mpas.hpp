@@ -46,9 +46,6 @@ Grid read_mpas(const std::string& path);
 /// file_id.
 std::string mpas_parent_id(const std::string& path);
 
-/// graph.info for METIS: "nCells nInternalEdges", then the neighbours of each cell, from 1.
-void write_graph_info(const std::string& path, const Grid& grid);
-
 /// Layers of each cell (maxLevelCell), [n_cells]; empty when the file has none. Error(input) when a
 /// number is out of range.
 std::vector<Index> read_mpas_layers(const std::string& path);

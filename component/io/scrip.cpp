@@ -16,14 +16,6 @@ using netcdf::DimensionId;
 using netcdf::Type;
 using netcdf::VariableId;
 
-std::size_t max_corners(const Grid& grid) {
-  std::size_t most = 3;
-  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
-    most = std::max(most, grid.vertices_on_cell.row(cell).size());
-  }
-  return most;
-}
-
 struct CellColumns {
   VariableId dims, centre_lat, centre_lon, corner_lat, corner_lon, mask, area;
 };
@@ -73,8 +65,7 @@ void put(parallel::Executor& exec, netcdf::Writer& file, const CellColumns& colu
   });
   put_rows<std::int32_t>(exec, file, {columns.mask, n},
                          [](std::int64_t, std::span<std::int32_t> out) { out[0] = 1; });
-  const double unit_m2 = grid.surface.area() * grid.surface.scale_m() * grid.surface.scale_m();
-  const double factor = 4.0 * kPi / unit_m2;
+  const double factor = square_radians_in_m2(grid.surface);
   put_rows<double>(exec, file, {columns.area, n}, [&](std::int64_t cell, Reals out) {
     out[0] = factor * grid.cell_area_m2[at(cell)];
   });
@@ -146,19 +137,11 @@ void settle_poles(std::vector<LonLat>& corners) {
   }
 }
 
-void read_areas(const netcdf::Reader& file, FaceMesh& mesh) {
-  if (!file.has_variable("grid_area")) return;
-  mesh.face_area_m2 = file.read_double("grid_area");
-  const Ellipsoid surface = mesh.ellipsoid.value_or(Ellipsoid());
-  const double factor = surface.area() * surface.scale_m() * surface.scale_m() / (4.0 * kPi);
-  for (double& area : mesh.face_area_m2) area *= factor;
-}
-
 }  // namespace
 
 void write_scrip(const std::string& path, const Grid& grid, const Provenance& provenance,
                  const ScripOptions& options) {
-  const std::size_t width = max_corners(grid);
+  const std::size_t width = longest_row(grid.vertices_on_cell.offsets);
   const std::uint64_t row_bytes = 3 * sizeof(double) + 4 + 2 * width * sizeof(double);
   AtomicFile target(path, static_cast<std::uint64_t>(grid.n_cells()) * row_bytes);
   parallel::Executor alone(1);
@@ -198,7 +181,7 @@ FaceMesh read_scrip(const std::string& path) {
   settle_poles(corners);
   const std::vector<Index> ids = merge(corners, mesh.node);
   mesh.nodes_on_face = distinct(path, ids, shape.dimensions[1].length);
-  read_areas(file, mesh);
+  read_areas(file, "grid_area", mesh);
   return mesh;
 }
 

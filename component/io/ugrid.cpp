@@ -420,9 +420,7 @@ void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenan
   topology.n_nodes = grid.n_vertices();
   topology.n_faces = grid.n_cells();
   topology.n_edges = grid.n_edges();
-  for (std::int64_t cell = 0; cell < grid.n_cells(); ++cell) {
-    topology.max_corners = std::max(topology.max_corners, grid.vertices_on_cell.row(cell).size());
-  }
+  topology.max_corners = longest_row(grid.vertices_on_cell.offsets);
   topology.node = [&](std::int64_t node) { return grid.vertex_lon_lat[at(node)]; };
   topology.face_centre = [&](std::int64_t cell) { return grid.cell_lon_lat[at(cell)]; };
   topology.face_area_m2 = [&](std::int64_t cell) { return grid.cell_area_m2[at(cell)]; };

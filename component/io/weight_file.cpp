@@ -6,6 +6,7 @@
 
 #include "core/error.hpp"
 #include "io/atomic_file.hpp"
+#include "io/face_mesh.hpp"
 
 namespace delos {
 namespace {
@@ -180,9 +181,8 @@ WeightFileGrid weight_file_grid(const Grid& grid) {
     result.lon_deg.push_back(grid.cell_lon_lat[at(i)].lon_rad * kDegPerRad);
     result.lat_deg.push_back(grid.cell_lon_lat[at(i)].lat_rad * kDegPerRad);
     result.area.push_back(grid.cell_area_m2[at(i)] / square_m);
-    const auto n = static_cast<std::int64_t>(grid.vertices_on_cell.row(i).size());
-    result.n_corners = std::max(result.n_corners, n);
   }
+  result.n_corners = static_cast<std::int64_t>(longest_row(grid.vertices_on_cell.offsets));
   result.fraction.assign(result.area.size(), 1.0);
   for (std::int64_t i = 0; i < grid.n_cells(); ++i) {
     const auto corners = grid.vertices_on_cell.row(i);

@@ -13,6 +13,7 @@
 #include "io/esmf_mesh.hpp"
 #include "io/fesom.hpp"
 #include "io/gmsh.hpp"
+#include "io/graph_file.hpp"
 #include "io/jigsaw.hpp"
 #include "io/mpas.hpp"
 #include "io/part_file.hpp"

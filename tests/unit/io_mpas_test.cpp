@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: BSD-3-Clause
+#include "io/graph_file.hpp"
 #include "io/mpas.hpp"
 
 #include <doctest/doctest.h>
