@@ -5,6 +5,7 @@
 #include <filesystem>
 
 #include "core/error.hpp"
+#include "domain/stack.hpp"
 #include "dual/build.hpp"
 #include "io/esmf_mesh.hpp"
 #include "io/fesom.hpp"
@@ -74,6 +75,10 @@ Grid grid_of(Context& context, const GridFile& file) {
   return grid;
 }
 
+MpasVertical vertical_of(const GridFile& file) {
+  return file.origin.format == "MPAS" ? read_mpas_vertical(file.path) : MpasVertical{};
+}
+
 /// The same for each side once, from the triangle of lower id; empty when it is not known.
 std::vector<double> spacing_by_triangle(const GridFile& file) {
   std::vector<double> out;
@@ -118,14 +123,47 @@ void write_triangles(const std::string& path, FileKind kind, const TriangleSet& 
   }
 }
 
+/// With the layers that the file has: MPAS's own, or those above the depths of a FESOM2 mesh, the
+/// lowest one of which ends at the bottom.
+void write_mpas_layers(Context& context, const GridFile& file, const Conversion& conversion,
+                       const Provenance& provenance) {
+  const MpasVertical vertical = vertical_of(file);
+  MpasOptions options{netcdf::Format::cdf5, false, &context.exec};
+  std::optional<MpasOceanLayers> ocean = vertical.ocean();
+  const std::optional<MpasTerrainLayers> terrain = vertical.terrain();
+  std::optional<domain::Stack> stack;
+  if (!file.depth_m.empty() && !file.level_m.empty()) {
+    const domain::Levels levels = domain::listed_levels(file.level_m);
+    Array<double> bottom_m(file.depth_m.begin(), file.depth_m.end());
+    for (double& depth_m : bottom_m) depth_m = std::min(depth_m, levels.depth_m());
+    stack = domain::stack_above(levels, std::move(bottom_m));
+    ocean = MpasOceanLayers{
+        stack->levels.interface_m, stack->n_layers, stack->bottom_depth_m,
+        [&](std::int64_t cell, std::int64_t k) { return stack->thickness_m(cell, k); }};
+  }
+  if (ocean) options.ocean = &*ocean;
+  if (terrain) options.terrain = &*terrain;
+  write_mpas(conversion.to, grid_of(context, file), provenance, options);
+}
+
+/// The triangles, with depths where they are known and can be written.
+TriangleSet closed_triangles(const GridFile& file, FileKind kind) {
+  TriangleSet set = triangle_set(file.surface, file.latitude, *file.mesh);
+  set.depth_m = file.depth_m;
+  set.level_m = file.level_m;
+  if (kind != FileKind::fesom) return set;
+  MpasVertical vertical = vertical_of(file);
+  if (vertical.interface_m.empty()) return set;
+  set.depth_m = std::move(vertical.bottom_depth_m);
+  set.level_m = std::move(vertical.interface_m);
+  return set;
+}
+
 void write_closed(Context& context, const GridFile& file, const Conversion& conversion) {
   const std::string& path = conversion.to;
   Provenance provenance = provenance_of(conversion, file);
   if (!holds_cells(conversion.kind) && conversion.kind != FileKind::ugrid_triangles) {
-    TriangleSet set = triangle_set(file.surface, file.latitude, *file.mesh);
-    set.depth_m = file.depth_m;
-    set.level_m = file.level_m;
-    return write_triangles(path, conversion.kind, set);
+    return write_triangles(path, conversion.kind, closed_triangles(file, conversion.kind));
   }
   certify(context, file, provenance);
   if (conversion.kind == FileKind::ugrid_triangles) {
@@ -134,10 +172,11 @@ void write_closed(Context& context, const GridFile& file, const Conversion& conv
                                  {file.surface, file.latitude, nullptr, spacing_m}, provenance,
                                  {netcdf::Format::cdf5, true, &context.exec});
   }
+  if (conversion.kind == FileKind::mpas) {
+    return write_mpas_layers(context, file, conversion, provenance);
+  }
   const Grid grid = grid_of(context, file);
   switch (conversion.kind) {
-    case FileKind::mpas:
-      return write_mpas(path, grid, provenance, {netcdf::Format::cdf5, false, &context.exec});
     case FileKind::ugrid_cells:
       return write_ugrid_cells(path, grid, provenance, {netcdf::Format::cdf5, true, &context.exec});
     case FileKind::scrip:

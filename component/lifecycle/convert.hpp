@@ -20,7 +20,9 @@ struct Conversion {
 };
 
 /// Reads a grid file of any kind and writes another. What the first says about its origin goes
-/// along; digest and certificate are those of the grid as it was read. Triangles with a border
+/// along; digest and certificate are those of the grid as it was read. The layers of an ocean go
+/// along between MPAS and FESOM2, those of an atmosphere from MPAS to MPAS; the other kinds hold
+/// none. Triangles with a border
 /// become VTU, Gmsh, JIGSAW or FESOM2 only. Error(input) for what can't be read or has a border,
 /// Error(output) for what the kind does not hold (an ellipsoid as MPAS).
 void convert_grid_file(Context& context, const Conversion& conversion);

@@ -173,14 +173,20 @@ UgridOptions ugrid_options(Context& context, const OutputContent& content) {
   return {format_of(content), content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
 }
 
-/// Of a culled grid the wet part, without points of no triangle, as FESOM2 wants it.
+/// Of a culled grid the wet part, without points of no triangle, as FESOM2 wants it; with the
+/// depths of an ocean's layers.
 TriangleSet wet_triangles(const OutputContent& content) {
   const Settings& settings = content.settings;
-  if (content.domain == nullptr) {
-    return triangle_set(settings.surface, settings.latitude, content.mesh);
+  const bool is_culled = content.domain != nullptr;
+  const Mesh part = is_culled ? triangles_of(*content.grid) : Mesh();
+  TriangleSet set =
+      triangle_set(settings.surface, settings.latitude, is_culled ? part : content.mesh);
+  if (content.layers != nullptr && content.layers->ocean) {
+    const domain::Stack& stack = *content.layers->ocean;
+    set.depth_m.assign(stack.bottom_depth_m.begin(), stack.bottom_depth_m.end());
+    set.level_m = stack.levels.interface_m;
   }
-  TriangleSet set = triangle_set(settings.surface, settings.latitude, triangles_of(*content.grid));
-  drop_lone_points(set);
+  if (is_culled) drop_lone_points(set);
   return set;
 }
 
