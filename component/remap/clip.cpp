@@ -66,6 +66,12 @@ bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {
     reach_ = std::max({reach_, std::abs(subject_[k].x), std::abs(subject_[k].y)});
     subject_[k].side = ~static_cast<Index>(k + 1 == subject_.size() ? 0 : k + 1);
   }
+  sides_.resize(std::max(sides_.size(), subject_.size()));
+  for (std::size_t k = 0; k < subject_.size(); ++k) {
+    const Corner &a = subject_[k == 0 ? subject_.size() - 1 : k - 1], &b = subject_[k];
+    const double whole = std::abs(b.x - a.x) + std::abs(b.y - a.y);
+    sides_[k] = {tiling.bow(polygon, k), whole > 0.0 ? 1.0 : 0.0, whole > 0.0 ? whole : 1.0};
+  }
   return true;
 }
 
@@ -99,6 +105,7 @@ void Clipper::make_room(std::size_t n_clipping) {
   next_.resize(most);
   distance_.resize(most);
   clipping_.resize(most);
+  sides_.resize(std::max(sides_.size(), most));
 }
 
 // Sutherland & Hodgman 1974 (doi:10.1145/360767.360802): keeps what lies left of the line. A
@@ -146,24 +153,28 @@ double Clipper::area(const Ellipsoid& surface, std::span<const Corner> corners) 
   return sum;
 }
 
-double Clipper::part_of_side(std::span<const Corner> corners, std::size_t k) const {
-  const Corner &p = corners[k], &q = corners[k + 1 == corners.size() ? 0 : k + 1];
-  // Of differences along one line any norm gives the ratio.
-  const double part = std::abs(q.x - p.x) + std::abs(q.y - p.y);
-  const bool is_own = p.side < 0;
-  const auto to = static_cast<std::size_t>(is_own ? ~p.side : p.side);
-  const std::size_t n = is_own ? subject_.size() : n_clipping_;
-  const std::size_t from = to == 0 ? n - 1 : to - 1;
-  if (is_own) {
-    const Corner &a = subject_[from], &b = subject_[to];
-    const double whole = std::abs(b.x - a.x) + std::abs(b.y - a.y);
-    return whole > 0.0 ? part / whole : 0.0;
+// Of differences along one line any norm gives the ratio. Which polygon a side belongs to can't be
+// foretold: both kinds stand in one list.
+double Clipper::with_bows(double area, const Tiling& tiling, std::int64_t polygon,
+                          std::span<const Corner> corners) {
+  const std::size_t n_own = subject_.size();
+  for (std::size_t k = 0; k < n_clipping_; ++k) {
+    const Vec3 &a = clipping_[k == 0 ? n_clipping_ - 1 : k - 1], &b = clipping_[k];
+    const double whole =
+        std::abs(b.x() * a.z() - a.x() * b.z()) + std::abs(b.y() * a.z() - a.y() * b.z());
+    // Round the body: coarse beyond caring.
+    const bool counts = a.z() > 0.0 && b.z() > 0.0 && whole > 0.0;
+    sides_[n_own + k] = {tiling.bow(polygon, k), counts ? a.z() * b.z() : 0.0,
+                         counts ? whole : 1.0};
   }
-  const Vec3 &a = clipping_[from], &b = clipping_[to];
-  if (!(a.z() > 0.0 && b.z() > 0.0)) return 0.0;  // round the body: coarse beyond caring
-  const double whole =
-      std::abs(b.x() * a.z() - a.x() * b.z()) + std::abs(b.y() * a.z() - a.y() * b.z());
-  return whole > 0.0 ? part * (a.z() * b.z()) / whole : 0.0;
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    const Corner &p = corners[k], &q = corners[k + 1 == corners.size() ? 0 : k + 1];
+    const std::size_t base = p.side < 0 ? 0 : n_own;
+    const Side& side = sides_[base + at(p.side < 0 ? ~p.side : p.side)];
+    const double part = std::abs(q.x - p.x) + std::abs(q.y - p.y);
+    area += side.bow * (part * side.scale / side.whole);
+  }
+  return area;
 }
 
 Vec3 Clipper::middle(const Ellipsoid& surface, std::span<const Corner> corners) const {

@@ -47,14 +47,21 @@ class Clipper {
   std::span<const Corner> clip(const Tiling& tiling, std::int64_t polygon);
   /// Area in scaled units.
   double area(const Ellipsoid& surface, std::span<const Corner> corners) const;
-  /// The part of the side from corner k on in the side of one of the two polygons that it lies on.
-  double part_of_side(std::span<const Corner> corners, std::size_t k) const;
+  /// The area with what the sides of the last two polygons, of which `polygon` is the second, have
+  /// beyond their straight lines: of each bow the part that a side of the intersection takes.
+  double with_bows(double area, const Tiling& tiling, std::int64_t polygon,
+                   std::span<const Corner> corners);
   /// Surface point in the middle of the corners' polygon.
   Vec3 middle(const Ellipsoid& surface, std::span<const Corner> corners) const;
 
  private:
   bool cut(const Vec3& line, double on_side, Index side);
   void make_room(std::size_t n_clipping);
+
+  // Of a side's bow belongs to a part of length l: l scale / whole.
+  struct Side {
+    double bow, scale, whole;
+  };
 
   Frame frame_{Vec3(0, 0, 1)};
   std::vector<Corner> subject_, current_, next_;  // of the last two n_ count
@@ -63,6 +70,7 @@ class Clipper {
   std::vector<Vec3> clipping_;  // of it n_clipping_ count
   std::size_t n_clipping_ = 0;
   std::vector<double> distance_;
+  std::vector<Side> sides_;  // those of the subject, then of the other
 };
 
 }  // namespace delos::remap

@@ -118,7 +118,9 @@ class Search {
         for (const Index beside : neighbours) seen_.place_of(beside);
       }
       for (const Corner& corner : corners) {
-        if (corner.side >= 0) seen_.place_of(neighbours[at(corner.side)]);
+        // A side of the target leads nowhere: without a branch, which could not be foretold.
+        const Index beside = neighbours[at(std::max(corner.side, 0))];
+        seen_.place_of(corner.side >= 0 ? beside : source);
       }
       ahead.prefetch(plan_.source, seen_.ids(), next);
       if (corners.size() >= 3) sum_m2 += add(source, target, corners, found);
@@ -128,13 +130,8 @@ class Search {
   double add(Index source, Index target, std::span<const Corner> corners,
              std::vector<Found>& found) {
     const Ellipsoid& surface = plan_.target.surface();
-    double area = clipper_.area(surface, corners);
-    for (std::size_t k = 0; k < corners.size(); ++k) {
-      const Index side = corners[k].side;
-      const double bow =
-          side < 0 ? plan_.target.bow(target, at(~side)) : plan_.source.bow(source, at(side));
-      if (bow != 0.0) area += bow * clipper_.part_of_side(corners, k);
-    }
+    const double area =
+        clipper_.with_bows(clipper_.area(surface, corners), plan_.source, source, corners);
     const double area_m2 = surface.scale_m() * surface.scale_m() * area;
     const double smaller_m2 =
         std::min(plan_.target.area_m2()[at(target)], plan_.source.area_m2()[at(source)]);
