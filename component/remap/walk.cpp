@@ -44,7 +44,7 @@ Index nearest_centre(const Tiling& tiling, const Vec3& p, std::int64_t stride) {
 
 // From neighbour to neighbour as long as centres come nearer to p: in a Voronoi diagram to the cell
 // of p, elsewhere near it, at less cost than over the sides.
-Index descend(const Tiling& tiling, const Vec3& p, Index start) {
+Index approach(const Tiling& tiling, const Vec3& p, Index start) {
   Index here = start;
   double least = (tiling.centres()[at(start)] - p).squaredNorm();
   for (Index from = kNone; from != here;) {
@@ -63,7 +63,7 @@ Index descend(const Tiling& tiling, const Vec3& p, Index start) {
 
 Index walk(const Tiling& tiling, const Vec3& p, Index start) {
   const std::int64_t longest = 1000 + 10 * static_cast<std::int64_t>(std::sqrt(tiling.size()));
-  Index here = descend(tiling, p, start);
+  Index here = approach(tiling, p, start);
   for (std::int64_t step = 0; step < longest; ++step) {
     const Index next = step_towards(tiling, here, p);
     if (next == kNone) return here;
