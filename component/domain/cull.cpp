@@ -100,6 +100,7 @@ void take_cells(parallel::Executor& exec, const Grid& from, std::span<const Inde
   to.cell_lon_lat = taken(exec, from.cell_lon_lat, cells);
   to.cell_area_m2 = taken(exec, from.cell_area_m2, cells);
   to.cell_spacing_m = taken(exec, from.cell_spacing_m, cells);
+  to.cell_ring = taken(exec, from.cell_ring, cells);
   const auto n = static_cast<std::int64_t>(cells.size());
   Array<std::int64_t> lengths(cells.size() + 1);
   parallel::for_index(exec, n, kTableGrain, [&](std::int64_t i) {

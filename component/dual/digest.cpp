@@ -59,7 +59,8 @@ std::vector<Bytes> arrays_of(const Grid& grid) {
           bytes(grid.edge_angle_rad),
           bytes(grid.weights_on_edge.offsets, of_edge),
           bytes(grid.weights_on_edge.values),
-          bytes(grid.cell_spacing_m)};
+          bytes(grid.cell_spacing_m),
+          bytes(grid.cell_ring)};
 }
 
 }  // namespace

@@ -5,6 +5,8 @@
 // Delaunay balls (vertex t belongs to triangle t). Base 0, lists counter-clockwise seen from
 // outside. Metres and radians.
 #include <algorithm>
+#include <array>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <utility>
@@ -97,11 +99,26 @@ struct Grid {
   // The same at the projected middle of the two cells, [n_edges]; empty where nobody filled it in
   // (build_grid has no field). Not part of the digest.
   Array<double> edge_spacing_m;
+  // Of a regional grid, [n_cells]: 0 inside, 1, 2, ... in the rings from there to the border, kNone
+  // beyond it (until culled). Empty for other grids.
+  Array<std::int32_t> cell_ring;
 
   std::int64_t n_cells() const { return static_cast<std::int64_t>(cell_position.size()); }
   std::int64_t n_edges() const { return static_cast<std::int64_t>(cells_on_edge.size()); }
   std::int64_t n_vertices() const { return static_cast<std::int64_t>(vertex_position.size()); }
 };
+
+/// The ring of an edge or vertex of a regional grid: the innermost of its cells that are there.
+template <std::size_t kCells>
+std::int32_t ring_of(const Grid& grid, const std::array<Index, kCells>& cells) {
+  std::int32_t least = kNone;
+  for (const Index cell : cells) {
+    if (cell == kNone) continue;
+    const std::int32_t ring = grid.cell_ring[static_cast<std::size_t>(cell)];
+    if (least == kNone || (ring != kNone && ring < least)) least = ring;
+  }
+  return least;
+}
 
 /// Whether the cells cover the whole surface: no table holds kNone.
 inline bool is_closed(const Grid& grid) {

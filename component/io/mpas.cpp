@@ -66,6 +66,7 @@ class MpasFile {
   void add_vertex_tables();
   void add_measures();
   void add_diagnostics();
+  void add_rings();
   void add_layers(const MpasOceanLayers& layers);
   void add_layers(const MpasTerrainLayers& layers);
   void finish();
@@ -284,6 +285,22 @@ void MpasFile::add_diagnostics() {
   }
 }
 
+void MpasFile::add_rings() {
+  const Grid& grid = grid_;
+  if (grid.cell_ring.empty()) return;
+  explain(add<std::int32_t>("bdyMaskCell", cells_,
+                            [&](std::int64_t i) { return grid.cell_ring[at(i)]; }),
+          "1", "ring of the cell: 0 inside, then from there to the border");
+  explain(
+      add<std::int32_t>("bdyMaskEdge", edges_,
+                        [&](std::int64_t i) { return ring_of(grid, grid.cells_on_edge[at(i)]); }),
+      "1", "the innermost ring of the edge's cells");
+  explain(
+      add<std::int32_t>("bdyMaskVertex", vertices_,
+                        [&](std::int64_t i) { return ring_of(grid, grid.cells_on_vertex[at(i)]); }),
+      "1", "the innermost ring of the vertex's cells");
+}
+
 void MpasFile::add_layers(const MpasOceanLayers& layers) {
   const std::span<const double> z = layers.interface_m;
   explain(add<double>("refBottomDepth", levels_, [z](std::int64_t k) { return z[at(k) + 1]; }), "m",
@@ -361,6 +378,7 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
     file.add_vertex_tables();
     file.add_measures();
     file.add_diagnostics();
+    file.add_rings();
     if (options.ocean != nullptr) file.add_layers(*options.ocean);
     if (options.terrain != nullptr) file.add_layers(*options.terrain);
     file.finish();

@@ -29,7 +29,8 @@ struct MpasOptions {
 /// Error(output) when the surface is no sphere or the file can't be written: then nothing is.
 /// Beyond the specification: `delos_spacing` [nCells] and `delos_edge_spacing` [nEdges] (at the
 /// projected middle of the edge's cells), the spacing that was asked for, each when the grid has
-/// it, and the attributes of write_provenance().
+/// it, and the attributes of write_provenance(). A grid with rings has bdyMaskCell, bdyMaskEdge and
+/// bdyMaskVertex, as limited-area models read them: 0 inside, the outermost ring at the border.
 void write_mpas(const std::string& path, const Grid& grid, const Provenance& provenance,
                 const MpasOptions& options = {});
 
@@ -37,9 +38,9 @@ void write_mpas(const std::string& path, const Grid& grid, const Provenance& pro
 /// rounding (exactly, on a unit sphere). Any closed or open MPAS mesh on a sphere is accepted;
 /// missing neighbours become kNone. A file without `delos_spacing` gets gridSpacing, or else the
 /// mean distance to the neighbours, as cell_spacing_m; one without `delos_edge_spacing` gets no
-/// edge_spacing_m. The radius is that of the file: 1 m for a unit sphere.
-/// Error(input) naming the variable and the entry when a table is missing or names what is not
-/// there.
+/// edge_spacing_m, one with bdyMaskCell gets rings. The radius is that of the file: 1 m for a unit
+/// sphere. Error(input) naming the variable and the entry when a table is missing or names what is
+/// not there.
 Grid read_mpas(const std::string& path);
 
 /// What `parent_id` of a file that is derived from this one must hold; empty when the file has no

@@ -6,6 +6,7 @@
 #include "domain/cell_means.hpp"
 #include "domain/cull.hpp"
 #include "domain/ocean.hpp"
+#include "domain/transects.hpp"
 
 namespace delos {
 namespace {
@@ -31,6 +32,20 @@ Array<double> wet_fraction(Context& context, const Settings& settings, const Inp
                                     settings.domain->options.sea_level_m);
   }
   return std::move(means.wet_fraction);
+}
+
+/// Outside of a region there is no sea, and lines there are nothing to it.
+void restrict_to_region(const Grid& grid, Array<double>& wet, domain::OceanOptions& options) {
+  for (std::size_t cell = 0; cell < wet.size(); ++cell) {
+    if (grid.cell_ring[cell] == kNone) wet[cell] = 0.0;
+  }
+  const auto is_outside = [&](const LonLatLine& line) {
+    const std::vector<Index> cells = domain::cells_along(grid, line);
+    return std::any_of(cells.begin(), cells.end(),
+                       [&](Index cell) { return grid.cell_ring[at(cell)] == kNone; });
+  };
+  std::erase_if(options.passages, is_outside);
+  std::erase_if(options.blockages, is_outside);
 }
 
 struct LineTotals {
@@ -105,8 +120,9 @@ DomainIds cull_to_domain(Context& context, const Settings& settings, const Input
   options.passages = inputs.passages;
   options.blockages = inputs.blockages;
   const std::int64_t n_before = grid.n_cells();
-  domain::Ocean ocean = domain::select_ocean(
-      context.exec, grid, wet_fraction(context, settings, inputs, grid), options);
+  Array<double> wet = wet_fraction(context, settings, inputs, grid);
+  if (!grid.cell_ring.empty()) restrict_to_region(grid, wet, options);
+  domain::Ocean ocean = domain::select_ocean(context.exec, grid, wet, options);
   warn(context, ocean.report.passages, "passage");
   warn(context, ocean.report.blockages, "blockage");
   context.monitor.log(LogLevel::info,

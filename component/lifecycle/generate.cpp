@@ -11,6 +11,8 @@
 #include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/estimate.hpp"
 #include "lifecycle/inputs.hpp"
+#include "lifecycle/outline.hpp"
+#include "lifecycle/region.hpp"
 #include "lifecycle/require.hpp"
 #include "lifecycle/version.hpp"
 #include "metrics/certificate.hpp"
@@ -149,6 +151,7 @@ void describe_inputs(const Settings& settings, const Inputs& inputs, Report& rep
 struct DomainSource {
   const Inputs* inputs = nullptr;
   std::vector<Index> cells;
+  std::vector<std::int32_t> rings;
   std::vector<double> layer_heights;
 };
 
@@ -158,7 +161,7 @@ void build_layers(Context& context, Product& product, const DomainSource& source
   product.layers =
       source.inputs != nullptr
           ? make_layers(context, settings,
-                        {*product.grid, *source.inputs->elevation_m, product.domain.has_value()},
+                        {*product.grid, *source.inputs->elevation_m, settings.domain.has_value()},
                         product.report)
           : restored_layers(*settings.layers, source.layer_heights);
 }
@@ -171,6 +174,22 @@ void build_partitions(Context& context, Product& product) {
   }
 }
 
+/// To the region, the sea, or the sea of the region.
+DomainIds cull(Context& context, const Inputs& inputs, Product& product) {
+  const Settings& settings = product.settings;
+  Grid& grid = *product.grid;
+  if (settings.region) {
+    const bool is_aligned = settings.constraints.empty();  // else the lines are others
+    mark_region(context, {settings, inputs, is_aligned ? &product.mesh.fixed : nullptr}, grid);
+  }
+  DomainIds ids = settings.domain ? cull_to_domain(context, settings, inputs, grid, product.report)
+                                  : cull_to_region(context, grid);
+  if (settings.region) {
+    tell_of_region(context, settings, grid, product.mesh.n_vertices(), product.report);
+  }
+  return ids;
+}
+
 void build_dual(Context& context, Product& product, const DomainSource& source) {
   const Ellipsoid& surface = product.settings.surface;
   {
@@ -180,11 +199,11 @@ void build_dual(Context& context, Product& product, const DomainSource& source) 
         context.exec, {surface, product.spacing, product.mesh.vertices},
         product.grid->cells_on_edge, [&](const Vec3&) { return surface.scale_m(); });
   }
-  if (product.settings.domain) {
-    product.domain = source.inputs != nullptr
-                         ? cull_to_domain(context, product.settings, *source.inputs, *product.grid,
-                                          product.report)
-                         : cull_to_cells(context, source.cells, *product.grid);
+  if (product.settings.domain || product.settings.region) {
+    product.domain = source.inputs != nullptr ? cull(context, *source.inputs, product)
+                                              : cull_to_cells(context, source.cells, *product.grid);
+    if (source.inputs == nullptr)
+      product.grid->cell_ring = {source.rings.begin(), source.rings.end()};
   }
 }
 
@@ -233,6 +252,20 @@ void judge(Context& context, Product& product, const std::string& directory) {
   throw Error(ErrorKind::quality, missed + rejected_report(product, directory));
 }
 
+/// Those of the configuration; without any, the region's outline.
+std::vector<GivenLine> lines_to_keep(const Context& context, const Settings& settings,
+                                     const Inputs& inputs, const SpacingField& spacing) {
+  const bool is_free = settings.generator == Generator::frontal && settings.constraints.empty();
+  if (!settings.region || !settings.region->align || !is_free) return inputs.lines;
+  Outline outline = outline_of(settings.surface, settings.latitude, *inputs.region, spacing);
+  if (!outline.refusal.empty()) {
+    context.monitor.log(LogLevel::warning,
+                        text("the grid can't follow the outline of the region: ", outline.refusal,
+                             ". Its rings begin where its cells end."));
+  }
+  return std::move(outline.rings);
+}
+
 Product begin(const Context& context, const Settings& settings) {
   Product product;
   product.settings = settings;
@@ -254,7 +287,8 @@ void finish(Context& context, Product& product, const GenerateScope& scope,
                                      product.mesh, product.settings.latitude);
   }
   judge(context, product, scope.directory);
-  if (scope.with_dual || product.settings.domain || product.settings.layers) {
+  const Settings& settings = product.settings;
+  if (scope.with_dual || settings.domain || settings.region || settings.layers) {
     build_dual(context, product, source);
     build_layers(context, product, source);
     add_digest(context, product);
@@ -306,7 +340,7 @@ Product generate(Context& context, const Settings& settings, const GenerateScope
 Product generate(Context& context, const Settings& given, const Inputs& inputs, Sized sized,
                  const GenerateScope& scope) {
   Product product = begin(context, given);
-  product.settings.refine.lines = inputs.lines;
+  product.settings.refine.lines = lines_to_keep(context, given, inputs, sized.field);
   const Settings& settings = product.settings;
   Report& report = product.report;
   describe_inputs(settings, inputs, report);
@@ -323,7 +357,7 @@ Product generate(Context& context, const Settings& given, const Inputs& inputs, 
   }
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = std::move(sized.field);
-  finish(context, product, scope, {&inputs, {}, {}});
+  finish(context, product, scope, {&inputs, {}, {}, {}});
   return product;
 }
 
@@ -336,7 +370,8 @@ Product resume(Context& context, const Settings& settings, SavedProduct saved) {
   product.spacing_table_m = std::move(saved.spacing_table_m);
   product.spacing = std::move(saved.spacing);
   finish(context, product, {},
-         {nullptr, std::move(saved.domain_cells), std::move(saved.layer_heights)});
+         {nullptr, std::move(saved.domain_cells), std::move(saved.rings),
+          std::move(saved.layer_heights)});
   return product;
 }
 

@@ -52,13 +52,14 @@ struct GenerateScope {
   MakeMesh make_mesh = {};
 };
 
-/// Phases: read, spacing, refine, relax, polish, quality, dual and, with settings.domain, domain
-/// (then there always is a dual); quality is that of the whole triangulation. The grid depends on
-/// the settings and the input files only, to the last bit. Error(resource) with the estimated count
-/// and memory before anything large is allocated; Error(quality) with every requirement that is
-/// missed, the value reached and the worst element's id and place, unless `require.keep` is on:
-/// then the log has it as a warning. On that error no grid is written, but, when scope.directory is
-/// given and settings.output.report is on, its report (write_rejected_report).
+/// Phases: read, spacing, refine, relax, polish, quality, dual and, with settings.domain or
+/// settings.region, domain (then there always is a dual); quality is that of the whole
+/// triangulation. The grid depends on the settings and the input files only, to the last bit.
+/// Error(resource) with the estimated count and memory before anything large is allocated;
+/// Error(quality) with every requirement that is missed, the value reached and the worst element's
+/// id and place, unless `require.keep` is on: then the log has it as a warning. On that error no
+/// grid is written, but, when scope.directory is given and settings.output.report is on, its report
+/// (write_rejected_report).
 Product generate(Context& context, const Settings& settings, const GenerateScope& scope);
 
 /// Phase "spacing". Errors as build_spacing.
@@ -75,6 +76,7 @@ struct SavedProduct {
   std::optional<LatLonField> spacing_table_m;
   std::string report_notes;
   std::vector<Index> domain_cells;    ///< DomainIds::cells; empty: the grid covers the surface
+  std::vector<std::int32_t> rings;    ///< Grid::cell_ring
   std::vector<double> layer_heights;  ///< saved_heights() of the layers, when there are any
 };
 

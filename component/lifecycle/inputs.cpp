@@ -40,6 +40,7 @@ class InputReader {
   bool add_source(const SourceSettings& source);
   void add_bathymetry(const BathymetrySettings& bathymetry);
   void add_domain(const DomainSettings& domain);
+  void add_region(const RegionSettings& region);
   void add_fixed(const RemeshSettings& remesh);
   void add_lines(const FileRequest& request);
 
@@ -123,6 +124,17 @@ void InputReader::add_domain(const DomainSettings& domain) {
   out_.land = polygons(domain.land, domain.land_feature);
   out_.passages = lines(domain.passages);
   out_.blockages = lines(domain.blockages);
+}
+
+void InputReader::add_region(const RegionSettings& region) {
+  out_.region =
+      region.shape ? *region.shape : RegionShape(polygons(region.polygons, region.feature));
+  check_region(*out_.region);
+  // Baselines have one spacing everywhere.
+  if (settings_.generator != Generator::frontal) return;
+  out_.recipe.region = out_.region;
+  out_.recipe.outside.n_rings = region.rings.total();
+  out_.recipe.outside.rate = region.growth;
 }
 
 void InputReader::fill(const SourceSettings& settings, SpacingSource& target) {
@@ -248,6 +260,7 @@ Inputs read_inputs(Context& context, const Settings& settings) {
   }
   if (sizing.needs_bathymetry) out.recipe.elevation_m = out.elevation_m;
   if (settings.domain) reader.add_domain(*settings.domain);
+  if (settings.region) reader.add_region(*settings.region);
   if (settings.remesh) reader.add_fixed(*settings.remesh);
   for (const FileRequest& file : settings.constraints.files) reader.add_lines(file);
   for (const LineFeature& shape : settings.constraints.shapes) {

@@ -2,6 +2,7 @@
 #pragma once
 // The files that a configuration names, read into the sizing recipe.
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,7 @@ struct Inputs {
   std::vector<InputRecord> files;               ///< each once, in the order of reading
   std::string bathymetry;                       ///< where the elevation came from; empty: not used
   std::vector<std::string> left_out;            ///< names of optional sources without their file
+  std::optional<RegionShape> region;            ///< of a regional grid
   std::vector<FixedRegion> fixed;               ///< what no remesh touches, polygons of files too
 };
 

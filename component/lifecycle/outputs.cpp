@@ -107,6 +107,7 @@ Grid carry_to_sphere(Context& context, const OutputContent& content, Provenance&
   } else {
     const DomainIds ids = cull_to_cells(context, content.domain->cells, grid);
     provenance.certificate = file_certificate(in_domain(ids, carried));
+    grid.cell_ring = content.grid->cell_ring;
   }
   return grid;
 }

@@ -31,6 +31,7 @@ constexpr const char* kTriangles = "triangles";
 constexpr const char* kFixedOffsets = "fixed_offsets";
 constexpr const char* kFixedEnds = "fixed_ends";
 constexpr const char* kDomain = "domain_cells";
+constexpr const char* kRings = "region_rings";
 constexpr const char* kLayers = "layer_heights";
 constexpr const char* kNotes = "report_notes";
 constexpr const char* kSpacing = "spacing";
@@ -125,6 +126,10 @@ std::vector<RestartArray> arrays_of(const Restart& state, const Content& content
   if (product.domain) {
     out.push_back({kDomain, "[n_cells] the vertex, from 0, of each cell of the culled grid",
                    std::span<const std::int32_t>(product.domain->cells)});
+  }
+  if (product.settings.region) {
+    out.push_back({kRings, "[n_cells] the ring of each cell of a regional grid, 0 inside",
+                   std::span<const std::int32_t>(product.grid->cell_ring)});
   }
   if (product.layers) {
     out.push_back({kLayers, "[n_cells] depth of the bottom or height of the ground, in m",
@@ -329,11 +334,13 @@ SavedProduct read_saved(parallel::Executor& exec, const RestartFile& file,
               "the restart file ", file.path(), " does not hold the lines of `constraints` (",
               kFixedOffsets, "): an older delos wrote it. Start anew.");
   std::vector<Index> cells;
-  if (settings.domain) cells = file.ids(kDomain);
+  if (settings.domain || settings.region) cells = file.ids(kDomain);
+  std::vector<std::int32_t> rings;
+  if (settings.region) rings = file.ids(kRings);
   std::vector<double> heights;
   if (settings.layers) heights = file.doubles(kLayers);
-  return {read_mesh(file),   std::move(spacing), std::move(table_m),
-          file.text(kNotes), std::move(cells),   std::move(heights)};
+  return {read_mesh(file),  std::move(spacing), std::move(table_m), file.text(kNotes),
+          std::move(cells), std::move(rings),   std::move(heights)};
 }
 
 }  // namespace

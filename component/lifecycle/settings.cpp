@@ -260,8 +260,8 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   ConfigNode effective;
   MapReader root(root_node, "", effective,
                  {"title", "surface", "generator", "subdivisions", "spacing", "sizing",
-                  "bathymetry", "constraints", "refine", "relax", "domain", "layers", "output",
-                  "require", "remesh", "threads", "data_path"});
+                  "bathymetry", "constraints", "refine", "relax", "domain", "region", "layers",
+                  "output", "require", "remesh", "threads", "data_path"});
   out.title = root.string("title", "");
   read_surface(root.map("surface", {"shape", "radius", "radii", "centre", "latitude"}), out);
   constexpr Generator kGenerators[] = {Generator::frontal, Generator::icosahedral,
@@ -299,6 +299,12 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   out.domain = read_domain(root);
   if (out.domain && out.remesh) {
     root.fail("domain", "a culled grid can't be made anew while a model runs: remove `domain` or ",
+              "`remesh`.");
+  }
+  out.region = read_region(root, out.surface.scale_m());
+  if (out.region && out.remesh) {
+    root.fail("region",
+              "a regional grid can't be made anew while a model runs: remove `region` or ",
               "`remesh`.");
   }
   if (out.domain && out.domain->needs_bathymetry()) add_bathymetry(root, out.sizing);

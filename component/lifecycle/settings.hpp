@@ -14,6 +14,7 @@
 #include "lifecycle/partitions.hpp"
 #include "lifecycle/settings_domain.hpp"
 #include "lifecycle/settings_layers.hpp"
+#include "lifecycle/settings_region.hpp"
 #include "lifecycle/settings_remesh.hpp"
 #include "lifecycle/settings_tree.hpp"
 #include "metrics/requirements.hpp"
@@ -96,6 +97,7 @@ struct Settings {
   OutputSettings output;
   RequireSettings require;
   std::optional<DomainSettings> domain;  ///< without it the grid covers the whole surface
+  std::optional<RegionSettings> region;  ///< without it the grid covers the whole surface
   std::optional<LayerSettings> layers;   ///< without it the grid has no vertical
   std::optional<RemeshSettings> remesh;  ///< without it the grid stays
   int threads = 0;

@@ -305,6 +305,15 @@ void add_domain(const ReportSection& section, std::vector<std::string>& lines) {
                        real(section, "n_blockages_shut"), real(section, "n_blockages")));
 }
 
+/// Of the section "region".
+void add_region(const ReportSection& section, std::vector<std::string>& lines) {
+  const auto count = [&](const char* key) {
+    return grouped(static_cast<std::int64_t>(real(section, key)));
+  };
+  lines.push_back("region      " + count("n_cells") + " cells: " + count("n_inside") + " inside, " +
+                  count("n_relaxation") + " relaxed, " + count("n_specified") + " specified");
+}
+
 /// Of the section "constraints"; bad triangles miss the certificate.
 void add_constraints(const ReportSection& section, std::vector<std::string>& lines) {
   const auto count = [&](const char* key) {
@@ -445,6 +454,7 @@ std::string report_text(const Report& report) {
   for (const ReportSection& section : report.sections) {
     if (section.name == "constraints") add_constraints(section, lines);
     if (section.name == "domain") add_domain(section, lines);
+    if (section.name == "region") add_region(section, lines);
     if (section.name == "layers") add_layers(section, lines);
   }
   add_partitions(report.partitions, lines);

@@ -299,6 +299,7 @@ void Cutter::Impl::fill_cells(const std::vector<Index>& cells, LocalArrays& out)
   pick(grid.cell_lon_lat, cells, out.cell_lon_lat);
   pick(grid.cell_area_m2, cells, out.cell_area_m2);
   pick(grid.cell_spacing_m, cells, out.cell_spacing_m);
+  pick(grid.cell_ring, cells, out.cell_ring);
   out.cell_offsets = pick_offsets(grid.edges_on_cell, cells);
   pick_rows(grid.edges_on_cell, cells, out.cell_offsets, out.edges_on_cell);
   pick_rows(grid.vertices_on_cell, cells, out.cell_offsets, out.vertices_on_cell);

@@ -44,6 +44,7 @@ struct LocalArrays {
   Array<Index> edges_on_edge;
   Array<double> weights_on_edge;
   Array<double> cell_area_m2, cell_spacing_m;
+  Array<std::int32_t> cell_ring;
   Array<double> cell_distance_m, vertex_distance_m, edge_angle_rad, edge_spacing_m;
   Array<double> triangle_area_m2;
   Array<std::array<double, 3>> kite_area_m2;
@@ -81,7 +82,7 @@ void for_each_array(AnySubgrid& subgrid, Visit&& visit) {
   all(a.edges_on_cell, a.vertices_on_cell, a.cells_on_cell);
   all(a.cells_on_edge, a.vertices_on_edge, a.cells_on_vertex, a.edges_on_vertex);
   all(a.edges_on_edge, a.weights_on_edge);
-  all(a.cell_area_m2, a.cell_spacing_m);
+  all(a.cell_area_m2, a.cell_spacing_m, a.cell_ring);
   all(a.cell_distance_m, a.vertex_distance_m, a.edge_angle_rad, a.edge_spacing_m);
   all(a.triangle_area_m2, a.kite_area_m2);
 }

@@ -20,27 +20,38 @@ struct RegionDisc {
 };
 
 /// Sides of polygons are straight in longitude and latitude, as in all sources of spacing.
-using Region = std::variant<RegionDisc, std::shared_ptr<const PolygonSet>>;
+using RegionShape = std::variant<RegionDisc, std::shared_ptr<const PolygonSet>>;
 
-/// 1 inside, 0 outside, by place. Error(input) for a set without a polygon, Error(config) for a
-/// radius that is not above 0 and below pi.
-std::vector<char> inside_region(parallel::Executor& exec, const Region& region,
+/// Error(input) for a set without a polygon, or with two sides that cross (both with a place),
+/// Error(config) for a radius that is not above 0 and below pi. n log n where sides are short.
+void check_region(const RegionShape& region);
+
+/// 1 inside, 0 outside, by place. The region must be one that check_region passes.
+std::vector<char> inside_region(parallel::Executor& exec, const RegionShape& region,
                                 std::span<const LonLat> places);
 
-/// Angle (rad) from every node of the table to the region, 0 inside. Errors as above.
-void distance_to_region(parallel::Executor& exec, const Region& region, LatLonField& distance_rad);
+/// Angle (rad) from every node of the table to the region, 0 inside.
+void distance_to_region(parallel::Executor& exec, const RegionShape& region,
+                        LatLonField& distance_rad);
 
 struct OutsideOptions {
-  double rings = 8.0;  ///< cells around the region that keep the spacing; 7 make its boundary
-  double rate = 0.4;   ///< growth of the spacing per distance behind them
+  int n_rings = 7;            ///< cells around the region that keep the spacing; one more does
+  double rate = 0.12;         ///< growth of the spacing per distance behind them
   double coarsest_rad = 0.4;  ///< spacing, over the largest radius, that it grows to
 };
 
-/// h becomes max(h, min(coarsest, rate (d - rings h))), d the distance from the region less a step
-/// of the table: what lies outside costs about 2.3 / rate cells for every cell of the region's rim,
-/// whatever the spacing. `field_m`: of the size of the distance.
+/// h becomes min(coarsest, h + rate (d - (rings + 1) h)) where d, the distance from the region less
+/// a step of the table, is larger than these rings, and stays where it is larger: what lies
+/// outside costs about 1.2 / rate cells for every cell of the region's rim, whatever the spacing.
+/// `field_m`: of the size of the distance.
 void coarsen_outside(parallel::Executor& exec, const Ellipsoid& surface,
                      const LatLonField& distance_rad, const OutsideOptions& options,
                      LatLonField& field_m);
+
+/// h becomes the coarsest at once behind the rings, so that expected_vertices() counts the region
+/// and its rings alone, to some per cent.
+void drop_outside(parallel::Executor& exec, const Ellipsoid& surface,
+                  const LatLonField& distance_rad, const OutsideOptions& options,
+                  LatLonField& field_m);
 
 }  // namespace delos

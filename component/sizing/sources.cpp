@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/error.hpp"
 #include "sizing/nodes.hpp"
@@ -16,6 +17,8 @@ constexpr double kFinestDefault = kRadPerDeg / 12.0;
 constexpr double kBudgetTolerance = 0.5e-3;
 constexpr int kBudgetRounds = 60;
 constexpr double kLargestScale = 1.0e4;
+/// Cells of a region a step of its table: rings around it are not much wider than they need to be.
+constexpr double kCellsPerRegionStep = 4.0;
 
 template <class... Bodies>
 struct Overloaded : Bodies... {
@@ -28,6 +31,25 @@ bool needs_elevation(const SpacingSource& source) {
   if (const auto* coast = std::get_if<CoastSource>(&source.source)) return !coast->land;
   return std::holds_alternative<SlopeSource>(source.source) ||
          std::holds_alternative<TidalSource>(source.source);
+}
+
+/// Where a formula tells; else more than any table's step.
+double least_spacing_m(const SpacingSource& source) {
+  const auto of_edge = [](const RegionEdge& edge) {
+    return std::min(edge.spacing_m, edge.outside_m);
+  };
+  return std::visit(Overloaded{[](const ConstantSource& s) { return s.spacing_m; },
+                               [](const LatitudeProfileSource& s) {
+                                 double least = std::numeric_limits<double>::max();
+                                 for (const double h : s.spacing_m) least = std::min(least, h);
+                                 return least;
+                               },
+                               [&](const DiscSource& s) { return of_edge(s.edge); },
+                               [&](const BoxSource& s) { return of_edge(s.edge); },
+                               [&](const PolygonSource& s) { return of_edge(s.edge); },
+                               [](const CoastSource& s) { return s.spacing_m; },
+                               [](const auto&) { return std::numeric_limits<double>::max(); }},
+                    source.source);
 }
 
 const Raster* gridded(const SpacingSource& source) {
@@ -45,6 +67,7 @@ const Raster* gridded(const SpacingSource& source) {
 
 void check_recipe(const SpacingRecipe& recipe) {
   check(recipe.combine, recipe.sources.size());
+  if (recipe.region) check_region(*recipe.region);
   if (recipe.clamp) check(*recipe.clamp);
   for (const SpacingSource& source : recipe.sources) {
     DELOS_CHECK(!needs_elevation(source) || recipe.elevation_m, ErrorKind::config, source.name,
@@ -94,7 +117,12 @@ class Builder {
     sample_elevation();
     combine_sources();
     smooth(exec_, recipe_.smooth_rad, combined_);
+    if (recipe_.region) {
+      resize_like(combined_, distance_);
+      distance_to_region(exec_, *recipe_.region, distance_);
+    }
     recipe_.cells > 0 ? meet_budget() : finish(1.0);
+    if (recipe_.region) coarsen_outside(exec_, surface_, distance_, recipe_.outside, finished_);
     return std::move(finished_);
   }
 
@@ -105,8 +133,14 @@ class Builder {
   void finish(double scale);
   void meet_budget();
   double count() const {
-    return expected_vertices(exec_, surface_,
-                             SpacingField::table(exec_, surface_, recipe_.latitude, finished_));
+    const auto expected = [&](const LatLonField& field) {
+      return expected_vertices(exec_, surface_,
+                               SpacingField::table(exec_, surface_, recipe_.latitude, field));
+    };
+    if (!recipe_.region) return expected(finished_);
+    LatLonField counted = finished_;
+    drop_outside(exec_, surface_, distance_, recipe_.outside, counted);
+    return expected(counted);
   }
 
   Context& context_;
@@ -115,6 +149,7 @@ class Builder {
   const SpacingRecipe& recipe_;
   LatLonField combined_;
   LatLonField elevation_;
+  LatLonField distance_;  // from the region (rad), when there is one
   LatLonField finished_;
 };
 
@@ -220,6 +255,9 @@ double default_resolution_rad(const Ellipsoid& surface, const SpacingRecipe& rec
   bool uses_elevation = recipe.land_spacing_m.has_value();
   for (const SpacingSource& source : recipe.sources) {
     if (const Raster* raster = gridded(source)) finest = std::min(finest, resolution_rad(*raster));
+    if (recipe.region) {
+      finest = std::min(finest, kCellsPerRegionStep * least_spacing_m(source) / surface.scale_m());
+    }
     uses_elevation = uses_elevation || needs_elevation(source);
   }
   if (uses_elevation && recipe.elevation_m) {
@@ -231,7 +269,7 @@ double default_resolution_rad(const Ellipsoid& surface, const SpacingRecipe& rec
 }
 
 bool is_constant(const SpacingRecipe& recipe) {
-  return !recipe.land_spacing_m &&
+  return !recipe.land_spacing_m && !recipe.region &&
          std::all_of(recipe.sources.begin(), recipe.sources.end(), [](const SpacingSource& source) {
            return std::holds_alternative<ConstantSource>(source.source);
          });

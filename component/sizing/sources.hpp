@@ -14,6 +14,7 @@
 #include "sizing/combine.hpp"
 #include "sizing/gradient_limit.hpp"
 #include "sizing/raster.hpp"
+#include "sizing/region.hpp"
 #include "sizing/rossby.hpp"
 #include "sizing/solution.hpp"
 #include "sizing/spacing.hpp"
@@ -47,16 +48,23 @@ struct SpacingRecipe {
   std::optional<double> land_spacing_m;  ///< where the elevation is >= 0; needs elevation_m
   double gradient_limit = 0.0;           ///< 0 = none
   std::int64_t cells = 0;                ///< budget: wanted number of vertices; 0 = none
+  /// Of a regional grid: the last step coarsens what lies outside, and `cells` is the number in the
+  /// region and its rings, met to some per cent.
+  std::optional<RegionShape> region;
+  OutsideOptions outside;
 };
 
-/// The finest gridded source (elevation counts where used), at least as fine as 0.5 degree and
-/// not finer than 1/12 degree or half the clamp's least spacing.
+/// The finest gridded source (elevation counts where used), for a region four times its least
+/// spacing where a source's formula tells that, at least as fine as 0.5 degree and not finer than
+/// 1/12 degree or half the clamp's least spacing.
 double default_resolution_rad(const Ellipsoid& surface, const SpacingRecipe& recipe);
 
-/// True when only constants are combined and no land value is given: no table is needed.
+/// True when only constants are combined and neither a land value nor a region is given: no table
+/// is needed.
 bool is_constant(const SpacingRecipe& recipe);
 
-/// The table in metres. Error(config) for options that don't fit together, Error(input) with the
+/// The table in metres. Error(config) for options that don't fit together, errors of
+/// check_region(), Error(input) with the
 /// source's name and lon/lat for values that are not finite and > 0.
 LatLonField build_spacing_table(Context& context, const Ellipsoid& surface,
                                 const SpacingRecipe& recipe);

@@ -23,7 +23,7 @@ static_assert(static_cast<int>(PartitionMethod::curve) ==
               static_cast<int>(delos::PartitionMethod::curve));
 
 // The first number of a layout; the last digits change with the list of arrays.
-constexpr std::int64_t kLayoutMagic = 0x64656c6f734c4701;
+constexpr std::int64_t kLayoutMagic = 0x64656c6f734c4702;
 
 template <class Rows>
 std::span<const std::byte> bytes_of(const Rows& rows) {
@@ -141,6 +141,7 @@ DELOS_FLAT(double, weights_on_edge)
 DELOS_FLAT(double, cell_area_m2)
 DELOS_FLAT(double, cell_spacing_m)
 DELOS_FLAT(double, edge_spacing_m)
+DELOS_FLAT(std::int32_t, cell_ring)
 DELOS_FLAT(double, triangle_area_m2)
 DELOS_FLAT(double, kite_area_m2)
 DELOS_FLAT(double, cell_distance_m)

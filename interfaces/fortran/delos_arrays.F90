@@ -1,7 +1,7 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! The numbers and arrays of a grid of module delos, and copies of ids with base 1.
 module delos_arrays
-  use, intrinsic :: iso_c_binding, only: c_double, c_f_pointer, c_int, c_int32_t, c_int64_t, c_ptr
+  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_int32_t, c_int64_t, c_ptr
   use delos_binding
   use delos_objects
   implicit none
@@ -44,6 +44,7 @@ module delos_arrays
     procedure :: cell_area_m2      ! (n_cells) sums to the surface's area
     procedure :: cell_spacing_m    ! (n_cells) the spacing asked for
     procedure :: edge_spacing_m    ! (n_edges) the same amid the two cells
+    procedure :: cell_ring         ! (n_cells) of a region, 0 inside; else not associated
     procedure :: triangle_area_m2  ! (n_vertices)
     procedure :: kite_area_m2      ! (3, n_vertices) as cells_on_vertex
     procedure :: cell_distance_m   ! (n_edges) between the two cells
@@ -97,7 +98,7 @@ contains
     integer(c_int) :: status
     status = getter(self%handle, first, n)
     values => null()
-    if (status == DELOS_SUCCESS) call c_f_pointer(first, values, [n])
+    if (c_associated(first)) call c_f_pointer(first, values, [n])
     call report_status(status, ierr)
   end subroutine
 
@@ -350,6 +351,13 @@ contains
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
     call get_reals(self, c_cell_spacing_m, values, ierr)
+  end function
+
+  function cell_ring(self, ierr) result(values)
+    class(delos_grid_arrays), intent(in) :: self
+    integer, intent(out), optional :: ierr
+    integer(c_int32_t), pointer :: values(:)
+    call get_ids(self, c_cell_ring, values, ierr)
   end function
 
   function edge_spacing_m(self, ierr) result(values)

@@ -231,6 +231,7 @@ module delos_binding
   procedure(array_getter), bind(c, name="delos_grid_cell_area_m2") :: c_cell_area_m2
   procedure(array_getter), bind(c, name="delos_grid_cell_spacing_m") :: c_cell_spacing_m
   procedure(array_getter), bind(c, name="delos_grid_edge_spacing_m") :: c_edge_spacing_m
+  procedure(array_getter), bind(c, name="delos_grid_cell_ring") :: c_cell_ring
   procedure(array_getter), bind(c, name="delos_grid_triangle_area_m2") :: c_triangle_area_m2
   procedure(array_getter), bind(c, name="delos_grid_kite_area_m2") :: c_kite_area_m2
   procedure(array_getter), bind(c, name="delos_grid_cell_distance_m") :: c_cell_distance_m

@@ -139,6 +139,7 @@ module delos_mpi_binding
   procedure(array_getter), bind(c, name="delos_mpi_grid_cell_area_m2") :: c_cell_area_m2
   procedure(array_getter), bind(c, name="delos_mpi_grid_cell_spacing_m") :: c_cell_spacing_m
   procedure(array_getter), bind(c, name="delos_mpi_grid_edge_spacing_m") :: c_edge_spacing_m
+  procedure(array_getter), bind(c, name="delos_mpi_grid_cell_ring") :: c_cell_ring
   procedure(array_getter), bind(c, name="delos_mpi_grid_triangle_area_m2") :: c_triangle_area_m2
   procedure(array_getter), bind(c, name="delos_mpi_grid_cell_distance_m") :: c_cell_distance_m
   procedure(array_getter), bind(c, name="delos_mpi_grid_vertex_distance_m") :: c_vertex_distance_m

@@ -33,6 +33,7 @@ module delos_mpi_parts
     procedure :: cell_area_m2
     procedure :: cell_spacing_m
     procedure :: edge_spacing_m
+    procedure :: cell_ring
     procedure :: triangle_area_m2
     procedure :: kite_area_m2
     procedure :: cell_distance_m
@@ -282,6 +283,17 @@ contains
     type(c_ptr) :: first
     integer(c_int64_t) :: n
     call get_array(self, c_edge_spacing_m, first, n, ierr)
+    values => null()
+    if (c_associated(first)) call c_f_pointer(first, values, [n])
+  end function
+
+  function cell_ring(self, ierr) result(values)
+    class(delos_mpi_part), intent(in) :: self
+    integer, intent(out), optional :: ierr
+    integer(c_int32_t), pointer :: values(:)
+    type(c_ptr) :: first
+    integer(c_int64_t) :: n
+    call get_array(self, c_cell_ring, first, n, ierr)
     values => null()
     if (c_associated(first)) call c_f_pointer(first, values, [n])
   end function

@@ -49,6 +49,7 @@ const std::map<std::string, std::vector<Override>>& reductions() {
       {"quasi_uniform_120km.yaml", {{"sizing.sources.0.spacing", "450 km"}}},
       {"quasi_uniform_60km.yaml", {{"sizing.sources.0.spacing", "400 km"}}},
       {"quasi_uniform_30km.yaml", {{"sizing.sources.0.spacing", "350 km"}}},
+      {"regional_10km.yaml", {{"sizing.sources.0.spacing", "80 km"}}},
       {"rossby.yaml",
        {{"sizing.clamp", "{min: 200 km, max: 700 km}"},
         {"sizing.sources.0.factor", "10"},

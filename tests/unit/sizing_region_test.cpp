@@ -15,12 +15,12 @@ namespace {
 
 const Ellipsoid kEarth = Ellipsoid::sphere(6371220.0);
 
-Region disc(double lon_deg, double lat_deg, double radius_deg) {
+RegionShape disc(double lon_deg, double lat_deg, double radius_deg) {
   return RegionDisc{{lon_deg * kRadPerDeg, lat_deg * kRadPerDeg}, radius_deg * kRadPerDeg};
 }
 
 /// 20 by 20 degrees over the date line with a hole of 4 by 4 in its middle.
-Region box_over_date_line() {
+RegionShape box_over_date_line() {
   PolygonSet set;
   set.source = "box";
   set.rings = {{{170, 190, 190, 170}, {-10, -10, 10, 10}, 0},
@@ -28,7 +28,7 @@ Region box_over_date_line() {
   return std::make_shared<const PolygonSet>(set);
 }
 
-bool is_inside(const Region& region, double lon_deg, double lat_deg) {
+bool is_inside(const RegionShape& region, double lon_deg, double lat_deg) {
   parallel::Executor exec(1);
   const LonLat place{lon_deg * kRadPerDeg, lat_deg * kRadPerDeg};
   return inside_region(exec, region, {&place, 1})[0] != 0;
@@ -65,7 +65,7 @@ TEST_CASE("distances are 0 in the region and angles outside") {
   CHECK(at(-160, 0) == doctest::Approx(10.0).epsilon(0.01));
 }
 
-TEST_CASE("outside a region the spacing stays for eight rings and then grows at its rate") {
+TEST_CASE("outside a region the spacing stays for its rings and one more, then grows at its rate") {
   parallel::Executor exec(2);
   LatLonField field = make_table(0.25 * kRadPerDeg), distance = field;
   std::fill(field.values.begin(), field.values.end(), 50e3);
@@ -80,13 +80,35 @@ TEST_CASE("outside a region the spacing stays for eight rings and then grows at 
   }
 }
 
+TEST_CASE("a budget of a region counts its cells and its rings alone") {
+  parallel::Executor exec(2);
+  LatLonField field = make_table(0.25 * kRadPerDeg), distance = field;
+  std::fill(field.values.begin(), field.values.end(), 50e3);
+  distance_to_region(exec, disc(20, 30, 10), distance);
+  drop_outside(exec, kEarth, distance, {}, field);
+  const double n = expected_vertices(
+      exec, kEarth, SpacingField::table(exec, kEarth, LatitudeKind::geodetic, field));
+  const double radius = 10.0 * kRadPerDeg + 7.0 * 50e3 / kEarth.scale_m();
+  const double cell = 0.5 * std::sqrt(3.0) * std::pow(50e3 / kEarth.scale_m(), 2);
+  CHECK(n == doctest::Approx(2.0 * kPi * (1.0 - std::cos(radius)) / cell).epsilon(0.03));
+}
+
 TEST_CASE("regions that make no sense are refused") {
-  parallel::Executor exec(1);
-  const LonLat place{0.0, 0.0};
-  expect_error(ErrorKind::config, {"radius is 0 deg"}, [&] {
-    inside_region(exec, disc(0, 0, 0), {&place, 1});
+  const auto polygon = [](std::vector<double> lon, std::vector<double> lat) {
+    PolygonSet set;
+    set.source = "outline";
+    set.rings = {{std::move(lon), std::move(lat), 0}};
+    return RegionShape(std::make_shared<const PolygonSet>(set));
+  };
+  expect_error(ErrorKind::config, {"radius is 0 deg"}, [&] { check_region(disc(0, 0, 0)); });
+  expect_error(ErrorKind::config, {"below 180 deg"}, [&] { check_region(disc(0, 0, 180)); });
+  expect_error(ErrorKind::input, {"holds no polygon"},
+               [&] { check_region(RegionShape(std::shared_ptr<const PolygonSet>())); });
+  expect_error(ErrorKind::input, {"outline", "crosses itself", "lon 5"}, [&] {
+    check_region(polygon({0, 10, 0, 10}, {0, 10, 10, 0}));
   });
-  expect_error(ErrorKind::input, {"holds no polygon"}, [&] {
-    inside_region(exec, Region(std::shared_ptr<const PolygonSet>()), {&place, 1});
-  });
+  check_region(polygon({0, 10, 10, 0}, {0, 0, 10, 10}));
+  check_region(box_over_date_line());
+  check_region(disc(0, 0, 120));                               // more than a hemisphere
+  check_region(polygon({0, 90, 180, 270}, {60, 55, 60, 65}));  // round the pole
 }

@@ -230,6 +230,9 @@ DELOS_C_API int delos_grid_cell_spacing_m(const delos_grid* grid, const double**
 /* [n_edges] the same amid the two cells */
 DELOS_C_API int delos_grid_edge_spacing_m(const delos_grid* grid, const double** values,
                                           int64_t* size);
+/* [n_cells] with a section `region`: 0 inside, 1, 2, ... in the rings from there to the border;
+ * else of size 0 */
+DELOS_C_API int delos_grid_cell_ring(const delos_grid* grid, const int32_t** values, int64_t* size);
 /* [n_vertices] */
 DELOS_C_API int delos_grid_triangle_area_m2(const delos_grid* grid, const double** values,
                                             int64_t* size);

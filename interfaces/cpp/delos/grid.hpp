@@ -98,7 +98,7 @@ class DELOS_API Grid {
 
   // --- tables around a cell are ragged: those of cell i are values [offsets[i], offsets[i + 1])
   //     and entry j of each belongs to edge j, which joins vertex j - 1 to vertex j.
-  //     With a section `domain` the grid has a border: -1 stands in cells_on_cell, in
+  //     With a section `domain` or `region` the grid has a border: -1 stands in cells_on_cell, in
   //     cells_on_edge[1] (the normal points out), cells_on_vertex and edges_on_vertex where there
   //     is nothing, a kite there is 0, and the ragged tables are shorter than 2 n_edges
   std::span<const std::int64_t> cell_offsets() const;      ///< [n_cells + 1]
@@ -113,6 +113,9 @@ class DELOS_API Grid {
   std::span<const std::int64_t> edge_offsets() const;   ///< [n_edges + 1]
   std::span<const std::int32_t> edges_on_edge() const;  ///< [edge_offsets.back()]
   std::span<const double> weights_on_edge() const;      ///< as edges_on_edge
+  /// With a section `region`, [n_cells]: 0 inside, 1, 2, ... in the rings from there to the border,
+  /// as MPAS's bdyMaskCell; that of an edge or vertex is the least of its cells. Else empty.
+  std::span<const std::int32_t> cell_ring() const;
 
   // --- measures
   std::span<const double> cell_area_m2() const;       ///< [n_cells] sums to the surface's area

@@ -96,6 +96,7 @@ class DELOS_API LocalGrid {
   std::span<const double> cell_area_m2() const;
   std::span<const double> cell_spacing_m() const;
   std::span<const double> edge_spacing_m() const;
+  std::span<const std::int32_t> cell_ring() const;
   std::span<const double> triangle_area_m2() const;
   std::span<const double> kite_area_m2() const;
   std::span<const double> cell_distance_m() const;
