@@ -9,8 +9,6 @@
 namespace delos::domain {
 namespace {
 
-std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
-
 // The neighbours of `front` without a ring get the next one.
 std::vector<Index> next_ring(const Grid& grid, const std::vector<Index>& front, int ring,
                              Array<std::int32_t>& ring_of) {
