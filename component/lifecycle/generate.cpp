@@ -202,8 +202,9 @@ void build_dual(Context& context, Product& product, const DomainSource& source) 
   if (product.settings.domain || product.settings.region) {
     product.domain = source.inputs != nullptr ? cull(context, *source.inputs, product)
                                               : cull_to_cells(context, source.cells, *product.grid);
-    if (source.inputs == nullptr)
-      product.grid->cell_ring = {source.rings.begin(), source.rings.end()};
+    if (source.inputs == nullptr) {
+      product.grid->cell_ring.assign(source.rings.begin(), source.rings.end());
+    }
   }
 }
 
@@ -261,7 +262,7 @@ std::vector<GivenLine> lines_to_keep(const Context& context, const Settings& set
   if (!outline.refusal.empty()) {
     context.monitor.log(LogLevel::warning,
                         text("the grid can't follow the outline of the region: ", outline.refusal,
-                             ". Its rings begin where its cells end."));
+                             ". Its rings follow the cells with their centres in it."));
   }
   return std::move(outline.rings);
 }

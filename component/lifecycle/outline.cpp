@@ -72,9 +72,7 @@ Points ring_of_polygon(const Ellipsoid& surface, LatitudeKind latitude, const Po
   const std::size_t n = ring.lon_deg.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t next = (i + 1) % n;
-    constexpr double kTurn = 360.0;
-    const double to_lon =
-        ring.lon_deg[next] + kTurn * std::round((ring.lon_deg[i] - ring.lon_deg[next]) / kTurn);
+    const double to_lon = next == 0 ? closing_lon_deg(ring) : ring.lon_deg[next];
     const Curve side = [&](double t) {
       const double lon = ring.lon_deg[i] + t * (to_lon - ring.lon_deg[i]);
       const double lat = ring.lat_deg[i] + t * (ring.lat_deg[next] - ring.lat_deg[i]);

@@ -55,8 +55,9 @@ std::optional<RegionSettings> read_region(MapReader& root, double radius_m) {
   MapReader keys = root.map("region", {"disc", "points", "polygons", "relaxation_rings",
                                        "specified_rings", "growth", "align"});
   if (keys.has("disc") + keys.has("points") + keys.has("polygons") != 1) {
-    keys.fail("disc", "a region is one of disc: {centre: [10, 50], radius: 1000 km}, points: ",
-              "[lon, lat, lon, lat, ...] or polygons: {file: region.geojson}.");
+    keys.fail("disc",
+              "a region is one of disc: {centre: [10 deg, 50 deg], radius: 1000 km}, points: ",
+              "[0 deg, 40 deg, ...] or polygons: {file: region.geojson}.");
   }
   if (keys.has("disc")) {
     out.shape = read_region_disc(keys.map("disc", {"centre", "radius"}), radius_m);

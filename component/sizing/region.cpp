@@ -13,7 +13,6 @@ namespace delos {
 namespace {
 
 constexpr std::int64_t kRegionGrain = 1024;  // places a task: some tens of microseconds
-constexpr double kTurnDeg = 360.0;
 
 double angle_from(const RegionDisc& disc, const Vec3& centre, const Vec3& p) {
   return std::max(0.0,
@@ -37,11 +36,13 @@ std::vector<PolygonSide> sides_of(const PolygonSet& polygons) {
     const std::size_t n = ring.lon_deg.size();
     for (std::size_t k = 0; k < n; ++k) {
       const std::size_t next = (k + 1) % n;
-      // A ring round a pole ends a turn from where it began.
-      const double turn =
-          next == 0 ? kTurnDeg * std::round((ring.lon_deg[k] - ring.lon_deg[0]) / kTurnDeg) : 0.0;
-      PolygonSide side{
-          ring.lon_deg[k], ring.lat_deg[k], ring.lon_deg[next] + turn, ring.lat_deg[next], r, k, n};
+      PolygonSide side{ring.lon_deg[k],
+                       ring.lat_deg[k],
+                       next == 0 ? closing_lon_deg(ring) : ring.lon_deg[next],
+                       ring.lat_deg[next],
+                       r,
+                       k,
+                       n};
       if (side.west > side.east) {
         std::swap(side.west, side.east);
         std::swap(side.west_lat, side.east_lat);
@@ -88,6 +89,13 @@ void check_sides(const PolygonSet& polygons) {
 }
 
 }  // namespace
+
+double closing_lon_deg(const PolygonRing& ring) {
+  constexpr double kHalfTurn = 180.0;
+  const double gap = ring.lon_deg.back() - ring.lon_deg.front();
+  if (std::abs(gap) <= kHalfTurn) return ring.lon_deg.front();
+  return ring.lon_deg.front() + (gap > 0.0 ? 2.0 : -2.0) * kHalfTurn;
+}
 
 void check_region(const RegionShape& region) {
   if (const auto* const disc = std::get_if<RegionDisc>(&region)) {

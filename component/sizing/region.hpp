@@ -22,6 +22,10 @@ struct RegionDisc {
 /// Sides of polygons are straight in longitude and latitude, as in all sources of spacing.
 using RegionShape = std::variant<RegionDisc, std::shared_ptr<const PolygonSet>>;
 
+/// Where the side from the last corner of the ring to its first ends: the first's longitude, a turn
+/// on for a ring round a pole.
+double closing_lon_deg(const PolygonRing& ring);
+
 /// Error(input) for a set without a polygon, or with two sides that cross (both with a place),
 /// Error(config) for a radius that is not above 0 and below pi. n log n where sides are short.
 void check_region(const RegionShape& region);
