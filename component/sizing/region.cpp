@@ -171,12 +171,14 @@ void drop_outside(parallel::Executor& exec, const Ellipsoid& surface,
                   const LatLonField& distance_rad, const OutsideOptions& options,
                   LatLonField& field_m) {
   DELOS_ASSERT(field_m.values.size() == distance_rad.values.size());
+  // Rows of hexagons along the outline, and half a one beyond the middle of the last.
+  const double row = 0.5 * std::sqrt(3.0), n_wide = row * (options.n_rings + 0.5);
   // Where the node before is the last one inside, the middle between the two is the border.
   const double half_step = 0.5 * kPi / distance_rad.n_lat_cells, scale_m = surface.scale_m();
   for_rows(exec, field_m, [&](Index row, double* values) {
     const double* const distance = distance_rad.values.data() + distance_rad.at(row, 0);
     for (Index i = 0; i < field_m.n_lon; ++i) {
-      const bool is_beyond = (distance[i] - half_step) * scale_m > options.n_rings * values[i];
+      const bool is_beyond = (distance[i] - half_step) * scale_m > n_wide * values[i];
       if (is_beyond) values[i] = std::max(values[i], options.coarsest_rad * scale_m);
     }
   });

@@ -97,6 +97,16 @@ TEST_CASE("a culled grid has -1 where its neighbours are gone, and names no elem
   CHECK(certificate.angle_max_deg.id < grid.n_vertices());
 }
 
+TEST_CASE("a regional grid hands out its rings, other grids none") {
+  CHECK(small_grid().cell_ring().empty());
+  const delos::Grid grid = delos::generate(delos::Config::from_text(
+      std::string(kSmall) + "region: {disc: {centre: [0 deg, 40 deg], radius: 40 deg}}\n"));
+  const auto rings = grid.cell_ring();
+  REQUIRE(static_cast<std::int64_t>(rings.size()) == grid.n_cells());
+  CHECK(*std::min_element(rings.begin(), rings.end()) == 0);
+  CHECK(*std::max_element(rings.begin(), rings.end()) == 7);
+}
+
 TEST_CASE("the certificate names elements of the grid's own arrays") {
   const delos::Grid grid = small_grid();
   const delos::Certificate& certificate = grid.certificate();
