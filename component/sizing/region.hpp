@@ -46,7 +46,7 @@ struct OutsideOptions {
 
 /// h becomes min(coarsest, h + rate (d - (rings + 1) h)) where d, the distance from the region less
 /// a step of the table, is larger than these rings, and stays where it is larger: what lies
-/// outside costs about 1.2 / rate cells for every cell of the region's rim, whatever the spacing.
+/// outside costs some 2 / rate cells for every cell of the region's rim, whatever the spacing.
 /// `field_m`: of the size of the distance.
 void coarsen_outside(parallel::Executor& exec, const Ellipsoid& surface,
                      const LatLonField& distance_rad, const OutsideOptions& options,

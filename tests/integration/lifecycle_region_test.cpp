@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "dual/validate.hpp"
 #include "io/mpas.hpp"
@@ -62,13 +63,13 @@ void write(const Product& product, const std::string& folder) {
 }  // namespace
 
 TEST_CASE("a regional grid has the same bits for any number of threads, and is sound") {
-  const Product product = checked(regional("200 km", kDisc, "require: {well_centred: true}\n"));
+  const Product product = checked(regional("300 km", kDisc, "require: {well_centred: true}\n"));
   const Grid& grid = *product.grid;
   expect_sound(grid);
-  // The disc's area over that of a cell, and half of its 76 cells on the outline; seven rings; the
+  // The disc's area over that of a cell, and half of its 51 cells on the outline; seven rings; the
   // coarse cells outside are few.
-  CHECK(static_cast<double>(n_in_ring(grid, 0)) == doctest::Approx(559.0 + 38.0).epsilon(0.03));
-  for (std::int32_t ring = 1; ring <= 7; ++ring) CHECK(n_in_ring(grid, ring) > 70);
+  CHECK(static_cast<double>(n_in_ring(grid, 0)) == doctest::Approx(249.0 + 25.0).epsilon(0.04));
+  for (std::int32_t ring = 1; ring <= 7; ++ring) CHECK(n_in_ring(grid, ring) > 47);
   CHECK(n_in_ring(grid, 8) == 0);
   CHECK(told(product, "n_cells") == grid.n_cells());
   CHECK(told(product, "n_inside") == n_in_ring(grid, 0));
@@ -78,6 +79,34 @@ TEST_CASE("a regional grid has the same bits for any number of threads, and is s
   for (const auto& cells : grid.cells_on_edge) {
     if (cells[1] == kNone) CHECK(grid.cell_ring[static_cast<std::size_t>(cells[0])] == 7);
   }
+}
+
+TEST_CASE("the last cells inside a region stand on its outline when it is aligned") {
+  const auto n_off = [](const Product& product) {
+    const Grid& grid = *product.grid;
+    const Vec3 centre = Ellipsoid::sphere(1.0).point({10.0 * kRadPerDeg, 50.0 * kRadPerDeg},
+                                                     LatitudeKind::geocentric);
+    const double scale_m = grid.surface.scale_m();
+    std::int64_t n = 0;
+    for (Index cell = 0; cell < grid.n_cells(); ++cell) {
+      const auto around = grid.cells_on_cell.row(cell);
+      const bool is_last = grid.cell_ring[at(cell)] == 0 &&
+                           std::any_of(around.begin(), around.end(),
+                                       [&](Index c) { return grid.cell_ring[at(c)] == 1; });
+      const double angle = std::acos(grid.cell_position[at(cell)].dot(centre));
+      if (is_last && std::abs(angle * scale_m - 2500e3) > 0.1 * 250e3) ++n;
+    }
+    return n;
+  };
+  CHECK(n_off(made(regional("250 km", kDisc), 2)) == 0);
+  CHECK(n_off(made(regional("250 km", kDisc + ", align: false"), 2)) > 20);
+  // What comes near to itself is not followed, and made all the same.
+  const std::string slotted =
+      "points: [0 deg, 0 deg, 30 deg, 0 deg, 30 deg, 30 deg, 0 deg, 30 deg, 0 deg, 16 deg, "
+      "20 deg, 16 deg, 20 deg, 15 deg, 0 deg, 15 deg]";
+  const Product narrow = made(regional("300 km", slotted), 2);
+  CHECK(n_in_ring(*narrow.grid, 0) > 1);
+  CHECK(narrow.settings.refine.lines.empty());
 }
 
 TEST_CASE("MPAS files hold the rings of cells, edges and vertices and read back") {

@@ -76,6 +76,13 @@ void check_rings(const Regional& made, int last) {
   }
 }
 
+Grid even_grid(TestRun& run, double spacing_m) {
+  RefineReport refined;
+  const SpacingField spacing = SpacingField::constant(kEarth, spacing_m);
+  const Mesh mesh = refine(run.context, kEarth, spacing, {}, refined);
+  return build_grid(run.context, kEarth, LatitudeKind::geodetic, mesh);
+}
+
 }  // namespace
 
 TEST_CASE("a regional grid has even rings and costs little more than its cells") {
@@ -100,10 +107,7 @@ TEST_CASE("a regional grid has even rings and costs little more than its cells")
 
 TEST_CASE("regions without a cell or without room for their rings are refused") {
   TestRun run(1);
-  RefineReport refined;
-  const SpacingField spacing = SpacingField::constant(kEarth, 1000e3);
-  const Mesh mesh = refine(run.context, kEarth, spacing, {}, refined);
-  const Grid grid = build_grid(run.context, kEarth, LatitudeKind::geodetic, mesh);
+  const Grid grid = even_grid(run, 1000e3);
   std::vector<char> inside(static_cast<std::size_t>(grid.n_cells()), 0);
   testing::expect_error(ErrorKind::input, {"smaller than a few cells"},
                         [&] { domain::limited_area(run.exec, grid, inside, {}); });
@@ -114,10 +118,7 @@ TEST_CASE("regions without a cell or without room for their rings are refused") 
 
 TEST_CASE("a cell that hangs on a region leaves it, a hole of one cell is filled") {
   TestRun run(1);
-  RefineReport refined;
-  const SpacingField spacing = SpacingField::constant(kEarth, 600e3);
-  const Mesh mesh = refine(run.context, kEarth, spacing, {}, refined);
-  const Grid grid = build_grid(run.context, kEarth, LatitudeKind::geodetic, mesh);
+  const Grid grid = even_grid(run, 600e3);
   const RegionShape disc = RegionDisc{{1.0, 0.2}, 0.5};
   std::vector<char> inside = inside_region(run.exec, disc, grid.cell_lon_lat);
   const domain::RingWidths one{1, 0};
