@@ -22,7 +22,8 @@ struct PruneOptions {
   /// with it, cell by cell from their end.
   bool bays = false;
   /// A sea cell between whose sea neighbours land lies on two sides or more: a channel one cell
-  /// wide, or the only cell between two islands. What it joined may fall apart.
+  /// wide, or the only cell between two islands. What it joined may fall apart. Sides where all
+  /// sea is kept don't count: the mouth of a passage is no channel.
   bool channels = false;
 };
 

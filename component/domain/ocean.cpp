@@ -5,6 +5,7 @@
 
 #include "core/error.hpp"
 #include "domain/bodies.hpp"
+#include "domain/passages.hpp"
 #include "domain/transects.hpp"
 #include "sizing/analytic.hpp"
 
@@ -38,6 +39,13 @@ std::vector<LineReport> set_cells(const std::vector<Chain>& chains, bool is_sea,
   return reports;
 }
 
+std::vector<std::vector<Index>> cells_of(const std::vector<Chain>& chains) {
+  std::vector<std::vector<Index>> out;
+  out.reserve(chains.size());
+  for (const Chain& chain : chains) out.push_back(chain.cells);
+  return out;
+}
+
 void judge(const std::vector<Chain>& chains, bool is_sea, const Mask& sea,
            std::vector<LineReport>& reports) {
   for (std::size_t i = 0; i < chains.size(); ++i) {
@@ -65,6 +73,19 @@ std::vector<char> bodies_kept(const Grid& grid, const Bodies& bodies, const Ocea
     }
   }
   return is_kept;
+}
+
+// The cells of the bodies that are kept.
+Mask kept_of(const Grid& grid, const OceanOptions& options, const Mask& sea) {
+  const Bodies bodies = find_bodies(grid, sea);
+  Mask kept(sea.size(), 0);
+  if (bodies.bodies.empty()) return kept;
+  const std::vector<char> is_kept = bodies_kept(grid, bodies, options);
+  for (std::size_t cell = 0; cell < kept.size(); ++cell) {
+    const Index body = bodies.of_cell[cell];
+    kept[cell] = body != kNone && is_kept[at(body)] != 0;
+  }
+  return kept;
 }
 
 void keep_bodies(parallel::Executor& exec, const Grid& grid, const OceanOptions& options, Mask& sea,
@@ -114,7 +135,11 @@ Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<doubl
   report.passages = set_cells(passages, true, sea);
   Mask is_passage(sea.size(), 0);
   set_cells(passages, true, is_passage);
+  const Mask before = sea;
   report.pruned = prune(exec, grid, options.prune, is_passage, sea);
+  report.n_cells_given_back =
+      join_passages(grid, {before, [&](const Mask& mask) { return kept_of(grid, options, mask); }},
+                    cells_of(passages), sea);
   keep_bodies(exec, grid, options, sea, report);
   judge(passages, true, sea, report.passages);
   judge(blockages, false, sea, report.blockages);

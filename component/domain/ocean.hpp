@@ -47,6 +47,7 @@ struct OceanReport {
   std::int64_t n_bodies = 0, n_bodies_kept = 0;
   std::int64_t n_cells_of_other_bodies = 0;
   PruneReport pruned;
+  std::int64_t n_cells_given_back = 0;  ///< of those, since a passage needs them
   std::vector<LineReport> passages, blockages;
 };
 

@@ -52,28 +52,9 @@ double width_at(const Grid& grid, Index cell) {
   return width;
 }
 
-// The way from one cell to another through sea that is not shut, without its ends, of at most
-// `most` cells; empty when there is none. Breadth first, neighbours in the order of their lists.
-std::vector<Index> short_way(const Grid& grid, std::pair<Index, Index> ends, std::size_t most,
-                             const std::function<bool(Index)>& is_open) {
-  std::map<Index, Index> came_from{{ends.first, kNone}};
-  std::vector<Index> front{ends.first}, next;
-  for (std::size_t step = 0; step <= most && !front.empty(); ++step) {
-    for (const Index cell : front) {
-      for (const Index neighbour : grid.cells_on_cell.row(cell)) {
-        if (neighbour == kNone || came_from.count(neighbour) > 0) continue;
-        if (neighbour != ends.second && !is_open(neighbour)) continue;
-        came_from[neighbour] = cell;
-        next.push_back(neighbour);
-      }
-    }
-    if (came_from.count(ends.second) > 0) break;
-    front.swap(next);
-    next.clear();
-  }
+std::vector<Index> way_back(const std::map<Index, Index>& came_from, Index end) {
   std::vector<Index> way;
-  if (came_from.count(ends.second) == 0) return way;
-  for (Index cell = came_from[ends.second]; cell != ends.first; cell = came_from[cell]) {
+  for (Index cell = end; came_from.at(cell) != kNone; cell = came_from.at(cell)) {
     way.push_back(cell);
   }
   std::reverse(way.begin(), way.end());
@@ -83,7 +64,7 @@ std::vector<Index> short_way(const Grid& grid, std::pair<Index, Index> ends, std
 // For a chain that is shut from end to end: the way between open cells next to its ends, or the
 // chain itself.
 std::vector<Index> beside(const Grid& grid, const std::vector<Index>& chain,
-                          const std::function<bool(Index)>& is_open) {
+                          const CellTest& is_open) {
   const auto open_beside = [&](Index cell) {
     const auto row = grid.cells_on_cell.row(cell);
     const auto found = std::find_if(row.begin(), row.end(), is_open);
@@ -93,13 +74,37 @@ std::vector<Index> beside(const Grid& grid, const std::vector<Index>& chain,
   if (from == kNone || to == kNone) return chain;
   std::vector<Index> out{from};
   if (from == to) return out;
-  const std::vector<Index> way = short_way(grid, {from, to}, 2 * chain.size() + 4, is_open);
-  out.insert(out.end(), way.begin(), way.end());
-  out.push_back(to);
+  const auto way = shortest_way(
+      grid, out, [&](Index cell) { return cell == to; }, is_open, 2 * chain.size() + 4);
+  if (!way) return chain;
+  out.insert(out.end(), way->begin(), way->end());
   return out;
 }
 
 }  // namespace
+
+std::optional<std::vector<Index>> shortest_way(const Grid& grid, const std::vector<Index>& from,
+                                               const CellTest& is_goal, const CellTest& is_open,
+                                               std::size_t most) {
+  std::map<Index, Index> came_from;
+  for (const Index cell : from) came_from[cell] = kNone;
+  std::vector<Index> front = from, next;
+  for (std::size_t step = 0; step <= most && !front.empty(); ++step) {
+    for (const Index cell : front) {
+      for (const Index neighbour : grid.cells_on_cell.row(cell)) {
+        if (neighbour == kNone || came_from.count(neighbour) > 0) continue;
+        const bool is_end = is_goal(neighbour);
+        if (!is_end && !is_open(neighbour)) continue;
+        came_from[neighbour] = cell;
+        if (is_end) return way_back(came_from, neighbour);
+        next.push_back(neighbour);
+      }
+    }
+    front.swap(next);
+    next.clear();
+  }
+  return std::nullopt;
+}
 
 Index cell_at(const Grid& grid, const Vec3& point) {
   constexpr std::int64_t kSpread = 512;
@@ -153,11 +158,12 @@ std::vector<Index> led_around(const Grid& grid, const std::vector<Index>& chain,
     const auto behind = std::find_if_not(cell, chain.end(), is_shut);
     if (behind == chain.end()) break;
     const auto n_shut = static_cast<std::size_t>(behind - cell);
-    const std::vector<Index> way = short_way(grid, {out.back(), *behind}, 2 * n_shut + 4, is_open);
-    if (way.empty()) {
-      out.insert(out.end(), cell, behind);
+    const auto way = shortest_way(
+        grid, {out.back()}, [&](Index next) { return next == *behind; }, is_open, 2 * n_shut + 4);
+    if (way) {
+      out.insert(out.end(), way->begin(), way->end() - 1);
     } else {
-      out.insert(out.end(), way.begin(), way.end());
+      out.insert(out.end(), cell, behind);
     }
     cell = behind;
   }

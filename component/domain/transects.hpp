@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Lines on the map as chains of cells.
+#include <functional>
+#include <limits>
+#include <optional>
 #include <vector>
 
 #include "domain/mask.hpp"
@@ -18,6 +21,15 @@ Index cell_at(const Grid& grid, const Vec3& point);
 /// together by edges: water in all of them joins the line's ends, and land in all of them parts its
 /// sides. The line is followed in steps of a quarter of the cells' width. On a closed grid.
 std::vector<Index> cells_along(const Grid& grid, const LonLatLine& line);
+
+/// A question about a cell.
+using CellTest = std::function<bool(Index)>;
+
+/// The fewest cells that lead from one of `from` to a goal: open ones, `most` at the most, and the
+/// goal as the last. Nothing when there is no such way. Neighbours in the order of their lists.
+std::optional<std::vector<Index>> shortest_way(
+    const Grid& grid, const std::vector<Index>& from, const CellTest& is_goal,
+    const CellTest& is_open, std::size_t most = std::numeric_limits<std::size_t>::max());
 
 /// The chain led around the cells of `shut`, where a few cells of `sea` go around them: at most
 /// four more than twice those that are in the way. Elsewhere it goes through. Where it begins or

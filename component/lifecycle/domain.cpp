@@ -84,6 +84,7 @@ ReportSection section_of(const domain::OceanReport& report) {
            {"n_cells_of_other_bodies", report.n_cells_of_other_bodies},
            {"n_bay_cells_removed", report.pruned.n_bays},
            {"n_channel_cells_removed", report.pruned.n_channels},
+           {"n_cells_given_back", report.n_cells_given_back},
            {"n_passages", static_cast<std::int64_t>(report.passages.size())},
            {"n_passages_open", passages.n_holding},
            {"n_cells_opened", passages.n_changed},

@@ -177,6 +177,48 @@ TEST_CASE("a passage leads around a blockage that it can go around") {
   CHECK(shorter.report.blockages[0].holds);
 }
 
+TEST_CASE("a passage steps past an island of one cell between two neighbours") {
+  const Grid grid = made_grid();
+  const Index before = domain::cell_at(grid, grid.surface.point({0.0, 0.0}, grid.latitude));
+  const Index island = grid.cells_on_cell.row(before)[0];
+  const Index behind = grid.cells_on_cell.row(before)[1];  // next to both
+  LonLatLine strait{"strait", {}, {}};
+  for (const Index cell : {before, island, behind}) {
+    strait.lon_deg.push_back(lon_deg(grid, cell));
+    strait.lat_deg.push_back(lat_deg(grid, cell));
+  }
+  domain::OceanOptions options;
+  options.passages = {strait};
+  options.blockages = {{"island", {strait.lon_deg[1]}, {strait.lat_deg[1]}}};
+  const domain::OceanReport report = ocean_of(grid, wet_where(grid, is_belt), options).report;
+  CHECK(report.passages[0].holds);
+  CHECK(report.passages[0].n_cells == 2);
+  CHECK(report.blockages[0].holds);
+}
+
+TEST_CASE("what pruning takes beyond the ends of a passage comes back as far as it is needed") {
+  const Grid grid = made_grid();
+  Array<double> wet = wet_where(grid, is_belt);
+  for (const Index cell : domain::cells_along(grid, meridian("inlet", 90.0, 20.0, 45.0))) {
+    wet[at(cell)] = 1.0;
+  }
+  domain::OceanOptions options;
+  options.prune = {true, true};
+  const std::int64_t n_without = ocean_of(grid, wet, options).report.n_cells;
+  options.passages = {meridian("river", 90.0, 45.0, 70.0)};
+  const domain::Ocean ocean = ocean_of(grid, wet, options);
+  CHECK(ocean.report.passages[0].holds);
+  CHECK(ocean.report.n_cells_given_back > 0);
+  CHECK(ocean.report.n_cells <=
+        n_without + ocean.report.n_cells_given_back + ocean.report.passages[0].n_cells + 1);
+  CHECK(ocean.report.n_bodies == 1);
+  CHECK(holds_cell_at(ocean.culled.grid, 90.0, 70.0));
+  CHECK(holds_cell_at(ocean.culled.grid, 90.0, 35.0));
+  // No way leads from a lake without an outlet.
+  options.passages = {{"lake", {-90.0, -80.0}, {60.0, 60.0}}};
+  CHECK_FALSE(ocean_of(grid, wet, options).report.passages[0].holds);
+}
+
 TEST_CASE("a line's cells hang together across the date line, near a pole and in long strides") {
   const Grid grid = made_grid();
   for (const LonLatLine& line :
