@@ -155,9 +155,13 @@ CellMeans mean_over_cells(Context& context, const Grid& grid, const LatLonField&
 
 CellMeans mean_over_cells(Context& context, const Grid& grid, const Raster& elevation_m,
                           double sea_level_m) {
+  return mean_over_cells(context, grid, table_of(context.exec, elevation_m), sea_level_m);
+}
+
+LatLonField table_of(parallel::Executor& exec, const Raster& elevation_m) {
   LatLonField table = unset_table(resolution_rad(elevation_m));
-  sample(context.exec, elevation_m, table);
-  return mean_over_cells(context, grid, table, sea_level_m);
+  sample(exec, elevation_m, table);
+  return table;
 }
 
 }  // namespace delos::domain

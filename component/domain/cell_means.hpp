@@ -26,6 +26,9 @@ struct CellMeans {
 CellMeans mean_over_cells(Context& context, const Grid& grid, const Raster& elevation_m,
                           double sea_level_m = 0.0);
 
+/// The nodes that a raster is averaged on for this.
+LatLonField table_of(parallel::Executor& exec, const Raster& elevation_m);
+
 /// The same of an elevation on the nodes of a table.
 CellMeans mean_over_cells(Context& context, const Grid& grid, const LatLonField& elevation_m,
                           double sea_level_m = 0.0);

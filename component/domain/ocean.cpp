@@ -29,7 +29,9 @@ std::vector<Chain> chains_of(const Grid& grid, const std::vector<LonLatLine>& li
 std::vector<LineReport> set_cells(const std::vector<Chain>& chains, bool is_sea, Mask& sea) {
   std::vector<LineReport> reports;
   for (const Chain& chain : chains) {
-    LineReport report{chain.line.name, static_cast<std::int64_t>(chain.cells.size()), 0, false};
+    LineReport report;
+    report.name = chain.line.name;
+    report.n_cells = static_cast<std::int64_t>(chain.cells.size());
     for (const Index cell : chain.cells) {
       report.n_changed += (sea[at(cell)] != 0) != is_sea;
       sea[at(cell)] = is_sea;
@@ -46,11 +48,39 @@ std::vector<std::vector<Index>> cells_of(const std::vector<Chain>& chains) {
   return out;
 }
 
-void judge(const std::vector<Chain>& chains, bool is_sea, const Mask& sea,
-           std::vector<LineReport>& reports) {
+void judge_passages(const std::vector<Chain>& chains, const Mask& sea,
+                    std::vector<LineReport>& reports) {
   for (std::size_t i = 0; i < chains.size(); ++i) {
     reports[i].holds = std::all_of(chains[i].cells.begin(), chains[i].cells.end(),
-                                   [&](Index cell) { return (sea[at(cell)] != 0) == is_sea; });
+                                   [&](Index cell) { return sea[at(cell)] != 0; });
+  }
+}
+
+void judge_blockages(const Grid& grid, const std::vector<Chain>& chains, const Mask& sea,
+                     std::vector<LineReport>& reports) {
+  const auto is_open = [&](const Link& link) {
+    return sea[at(link[0])] != 0 && sea[at(link[1])] != 0;
+  };
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const std::vector<Link> links = links_across(grid, chains[i].line, chains[i].cells);
+    reports[i].holds = std::none_of(links.begin(), links.end(), is_open);
+  }
+}
+
+// Where a passage runs through cells of a blockage, the cells across the blockage's line are shut
+// in their place; a link between two passage cells stays open.
+void shut_beside_passages(const Grid& grid, const std::vector<Chain>& blockages,
+                          const Mask& is_passage, Mask& sea, std::vector<LineReport>& reports) {
+  for (std::size_t i = 0; i < blockages.size(); ++i) {
+    const std::vector<Index>& cells = blockages[i].cells;
+    reports[i].n_shared = std::count_if(cells.begin(), cells.end(),
+                                        [&](Index cell) { return is_passage[at(cell)] != 0; });
+    if (reports[i].n_shared == 0) continue;
+    for (const auto& [a, b] : links_across(grid, blockages[i].line, cells)) {
+      if (sea[at(a)] == 0 || sea[at(b)] == 0 || (is_passage[at(a)] && is_passage[at(b)])) continue;
+      sea[at(is_passage[at(a)] != 0 ? b : a)] = 0;
+      ++reports[i].n_changed;
+    }
   }
 }
 
@@ -135,14 +165,15 @@ Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<doubl
   report.passages = set_cells(passages, true, sea);
   Mask is_passage(sea.size(), 0);
   set_cells(passages, true, is_passage);
+  shut_beside_passages(grid, blockages, is_passage, sea, report.blockages);
   const Mask before = sea;
   report.pruned = prune(exec, grid, options.prune, is_passage, sea);
   report.n_cells_given_back =
       join_passages(grid, {before, [&](const Mask& mask) { return kept_of(grid, options, mask); }},
                     cells_of(passages), sea);
   keep_bodies(exec, grid, options, sea, report);
-  judge(passages, true, sea, report.passages);
-  judge(blockages, false, sea, report.blockages);
+  judge_passages(passages, sea, report.passages);
+  judge_blockages(grid, blockages, sea, report.blockages);
   out.culled = cull(exec, grid, order_cells(exec, grid, sea, options.order, options.n_parts));
   count_elements(exec, out.culled.grid, report);
   return out;

@@ -23,7 +23,7 @@ struct OceanOptions {
   double least_wet = 0.5;  ///< of a sea cell's area
   double sea_level_m = 0.0;
   /// Kept open, whatever the mask says. Around the cells of a blockage where few cells of sea lead
-  /// around, else through.
+  /// around, else through; then the cells on the other side of the blockage's line are shut.
   std::vector<LonLatLine> passages;
   std::vector<LonLatLine> blockages;  ///< kept shut, whatever the mask says
   PruneOptions prune;                 ///< the cells of passages stay
@@ -38,7 +38,11 @@ struct LineReport {
   std::string name;
   std::int64_t n_cells = 0;    ///< that it runs through
   std::int64_t n_changed = 0;  ///< opened or shut, where the mask had it otherwise
-  bool holds = false;          ///< a passage: all its cells are in the ocean; a blockage: none is
+  /// Of a blockage: cells that stay sea since a passage runs through them.
+  std::int64_t n_shared = 0;
+  /// A passage: all its cells are in the ocean. A blockage: no two neighbouring cells of the ocean
+  /// have their centres on either side of it.
+  bool holds = false;
 };
 
 struct OceanReport {

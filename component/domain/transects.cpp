@@ -7,6 +7,8 @@
 #include <map>
 #include <utility>
 
+#include "geometry/predicates.hpp"
+
 namespace delos::domain {
 namespace {
 
@@ -52,6 +54,13 @@ double width_at(const Grid& grid, Index cell) {
   return width;
 }
 
+// Whether the arcs ab and pq meet, each shorter than a quarter of a turn. Touching counts.
+bool do_meet(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) {
+  using predicates::orient_origin;
+  return orient_origin(a, b, p) * orient_origin(a, b, q) <= 0 &&
+         orient_origin(p, q, a) * orient_origin(p, q, b) <= 0 && (a + b).dot(p + q) > 0.0;
+}
+
 std::vector<Index> way_back(const std::map<Index, Index>& came_from, Index end) {
   std::vector<Index> way;
   for (Index cell = end; came_from.at(cell) != kNone; cell = came_from.at(cell)) {
@@ -82,6 +91,33 @@ std::vector<Index> beside(const Grid& grid, const std::vector<Index>& chain,
 }
 
 }  // namespace
+
+std::vector<Link> links_across(const Grid& grid, const LonLatLine& line,
+                               const std::vector<Index>& chain) {
+  // A link stays in its two cells, and the line in its chain, but for corners that it clips.
+  std::vector<Index> near = chain;
+  for (const Index cell : chain) {
+    const auto row = grid.cells_on_cell.row(cell);
+    near.insert(near.end(), row.begin(), row.end());
+  }
+  std::vector<Link> links;
+  for (const Index cell : near) {
+    for (const Index other : grid.cells_on_cell.row(cell)) {
+      links.push_back({std::min(cell, other), std::max(cell, other)});
+    }
+  }
+  std::sort(links.begin(), links.end());
+  links.erase(std::unique(links.begin(), links.end()), links.end());
+  const auto is_apart = [&](const Link& link) {
+    const Vec3 &a = grid.cell_position[at(link[0])], &b = grid.cell_position[at(link[1])];
+    for (std::size_t i = 0; i + 1 < line.lon_deg.size(); ++i) {
+      if (do_meet(a, b, point_of(grid, line, i), point_of(grid, line, i + 1))) return false;
+    }
+    return true;
+  };
+  links.erase(std::remove_if(links.begin(), links.end(), is_apart), links.end());
+  return links;
+}
 
 std::optional<std::vector<Index>> shortest_way(const Grid& grid, const std::vector<Index>& from,
                                                const CellTest& is_goal, const CellTest& is_open,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
 // Lines on the map as chains of cells.
+#include <array>
 #include <functional>
 #include <limits>
 #include <optional>
@@ -21,6 +22,14 @@ Index cell_at(const Grid& grid, const Vec3& point);
 /// together by edges: water in all of them joins the line's ends, and land in all of them parts its
 /// sides. The line is followed in steps of a quarter of the cells' width. On a closed grid.
 std::vector<Index> cells_along(const Grid& grid, const LonLatLine& line);
+
+/// Two neighbouring cells, lower first.
+using Link = std::array<Index, 2>;
+
+/// The links whose centres the line parts, ascending: what would flow through it. `chain` is
+/// cells_along of the line. A line between two cells' centres that ends on the link counts.
+std::vector<Link> links_across(const Grid& grid, const LonLatLine& line,
+                               const std::vector<Index>& chain);
 
 /// A question about a cell.
 using CellTest = std::function<bool(Index)>;

@@ -11,27 +11,29 @@
 namespace delos {
 namespace {
 
-/// Land polygons are drawn on a table finer than the cells, and than maps of the world.
-double polygon_resolution_rad(const Grid& grid) {
+/// The table that says what is sea. Land polygons are drawn on one finer than the cells, the finest
+/// of which have this spacing in radii, and than maps of the world.
+LatLonField elevation_table(Context& context, const Inputs& inputs, double finest) {
+  if (inputs.land == nullptr) return domain::table_of(context.exec, *inputs.elevation_m);
   constexpr double kFinest = 1.0 / 60.0, kCoarsest = 0.25;  // degrees
-  const double finest_m =
-      *std::min_element(grid.cell_distance_m.begin(), grid.cell_distance_m.end());
-  const double tenth_deg = 0.1 * finest_m / grid.surface.scale_m() * kDegPerRad;
-  return std::clamp(tenth_deg, kFinest, kCoarsest) * kRadPerDeg;
+  const double tenth_deg = 0.1 * finest * kDegPerRad;
+  return domain::elevation_of(context.exec, *inputs.land,
+                              std::clamp(tenth_deg, kFinest, kCoarsest) * kRadPerDeg);
+}
+
+/// Of the table: polygons are drawn about 0.
+double sea_level_m(const Settings& settings, const Inputs& inputs) {
+  return inputs.land == nullptr ? settings.domain->options.sea_level_m : 0.0;
 }
 
 Array<double> wet_fraction(Context& context, const Settings& settings, const Inputs& inputs,
                            const Grid& grid) {
-  domain::CellMeans means;
-  if (inputs.land != nullptr) {
-    const LatLonField elevation =
-        domain::elevation_of(context.exec, *inputs.land, polygon_resolution_rad(grid));
-    means = domain::mean_over_cells(context, grid, elevation);
-  } else {
-    means = domain::mean_over_cells(context, grid, *inputs.elevation_m,
-                                    settings.domain->options.sea_level_m);
-  }
-  return std::move(means.wet_fraction);
+  const auto& lengths_m = grid.cell_distance_m;
+  const double finest =
+      *std::min_element(lengths_m.begin(), lengths_m.end()) / grid.surface.scale_m();
+  return std::move(domain::mean_over_cells(context, grid, elevation_table(context, inputs, finest),
+                                           sea_level_m(settings, inputs))
+                       .wet_fraction);
 }
 
 /// Outside of a region there is no sea, and lines there are nothing to it.
@@ -49,7 +51,7 @@ void restrict_to_region(const Grid& grid, Array<double>& wet, domain::OceanOptio
 }
 
 struct LineTotals {
-  std::int64_t n_holding = 0, n_changed = 0;
+  std::int64_t n_holding = 0, n_changed = 0, n_shared = 0;
   std::string failed;  ///< names, "; " between them
 };
 
@@ -58,6 +60,7 @@ LineTotals totals_of(const std::vector<domain::LineReport>& lines) {
   for (const domain::LineReport& line : lines) {
     out.n_holding += line.holds;
     out.n_changed += line.n_changed;
+    out.n_shared += line.n_shared;
     if (!line.holds) out.failed += (out.failed.empty() ? "" : "; ") + line.name;
   }
   return out;
@@ -92,6 +95,7 @@ ReportSection section_of(const domain::OceanReport& report) {
            {"n_blockages", static_cast<std::int64_t>(report.blockages.size())},
            {"n_blockages_shut", blockages.n_holding},
            {"n_cells_shut", blockages.n_changed},
+           {"n_cells_shared", blockages.n_shared},
            {"blockages_not_shut", blockages.failed}}};
 }
 

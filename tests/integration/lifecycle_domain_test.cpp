@@ -1,15 +1,11 @@
 // SPDX-License-Identifier: BSD-3-Clause
-// Oceans from configurations: with the bathymetry that delos carries, and with real data where the
-// machine has them.
+// Oceans from configurations, with the bathymetry that delos carries.
 #include <doctest/doctest.h>
 
-#include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdlib>
 #include <filesystem>
 
 #include "dual/validate.hpp"
-#include "io/geojson.hpp"
 #include "io/mpas.hpp"
 #include "lifecycle/config_file.hpp"
 #include "lifecycle/grid_file.hpp"
@@ -25,12 +21,11 @@ using delos::testing::checked;
 using delos::testing::expect_error;
 using delos::testing::made;
 using delos::testing::TemporaryFolder;
+using delos::testing::value_of;
 
 namespace {
 
 namespace fs = std::filesystem;
-
-const std::string kEtopo5 = "/usr/share/ferret-vis/data/etopo5.cdf";
 
 std::string uniform(const std::string& spacing, const std::string& domain) {
   return "sizing: {sources: [{type: constant, spacing: " + spacing + "}]}\n" + domain;
@@ -46,63 +41,11 @@ void expect_sound(const Grid& grid, double tolerance = 1e-9) {
   for (const BrokenRule& rule : check_grid(context, grid, tolerance)) FAIL_CHECK(to_string(rule));
 }
 
-template <class T>
-T value_of(const Report& report, const std::string& key) {
-  for (const ReportSection& section : report.sections) {
-    if (section.name != "domain") continue;
-    for (const auto& [name, value] : section.values) {
-      if (name == key) return std::get<T>(value);
-    }
-  }
-  FAIL("the report has no domain." << key);
-  return {};
-}
-
 GridFile read_back(const std::string& path) {
   parallel::Executor exec(1);
   Monitor monitor;
   Context context{exec, monitor};
   return read_grid_file(context, path);
-}
-
-std::string test_data(const std::string& name) {
-  const char* folder = std::getenv("DELOS_TEST_DATA");
-  const std::string path = std::string(folder == nullptr ? "" : folder) + "/" + name;
-  if (fs::exists(path)) return path;
-  MESSAGE("skipped: no " << name << " (set DELOS_TEST_DATA)");
-  return "";
-}
-
-bool has_etopo5() {
-  if (fs::exists(kEtopo5)) return true;
-  MESSAGE("skipped: no " << kEtopo5 << " (install ferret-datasets)");
-  return false;
-}
-
-// On which side of the plane through a, b and the centre.
-bool is_left(const Vec3& a, const Vec3& b, const Vec3& p) { return a.cross(b).dot(p) > 0.0; }
-
-bool do_cross(const Vec3& a, const Vec3& b, const Vec3& p, const Vec3& q) {
-  return is_left(a, b, p) != is_left(a, b, q) && is_left(p, q, a) != is_left(p, q, b) &&
-         a.dot(p) > 0.0;
-}
-
-/// Neighbouring cells whose centres are joined across the line: what flows through it.
-std::int64_t n_links_across(const Grid& grid, const LonLatLine& line) {
-  std::int64_t n = 0;
-  for (std::size_t i = 0; i + 1 < line.lon_deg.size(); ++i) {
-    const auto point = [&](std::size_t k) {
-      return grid.surface.point({line.lon_deg[k] * kRadPerDeg, line.lat_deg[k] * kRadPerDeg},
-                                grid.latitude);
-    };
-    const Vec3 p = point(i), q = point(i + 1);
-    for (const auto& [a, b] : grid.cells_on_edge) {
-      if (b == kNone) continue;
-      n += do_cross(grid.cell_position[static_cast<std::size_t>(a)],
-                    grid.cell_position[static_cast<std::size_t>(b)], p, q);
-    }
-  }
-  return n;
 }
 
 }  // namespace
@@ -113,7 +56,7 @@ TEST_CASE("a culled product has the same bits for any number of threads, and is 
   const Grid& grid = *product.grid;
   CHECK(grid.n_cells() < 0.8 * static_cast<double>(product.mesh.n_vertices()));
   CHECK(grid.n_cells() > 0.6 * static_cast<double>(product.mesh.n_vertices()));
-  CHECK(value_of<std::int64_t>(product.report, "n_cells") == grid.n_cells());
+  CHECK(value_of<std::int64_t>(product.report, "domain", "n_cells") == grid.n_cells());
   expect_sound(grid);
 }
 
@@ -210,41 +153,4 @@ TEST_CASE("what a domain can't be is said with its key") {
   expect_error(ErrorKind::input, {"domain.passages.file", "nowhere.geojson"}, [&] {
     made(uniform("900 km", kEmbedded + "domain: {passages: {file: nowhere.geojson}}\n"), 1);
   });
-}
-
-TEST_CASE("the world ocean at 60 km: passages open, blockages shut, its area within 1 %") {
-  const std::string transects = test_data("mpas_transects_passages.geojson");
-  if (transects.empty() || !has_etopo5()) return;
-  const Product product =
-      made(uniform("60 km", "domain:\n  remove: [bays, channels]\n  passages: {file: " + transects +
-                                ", select: Critical_Passage}\n  blockages: {file: " + transects +
-                                ", select: Critical_Land_Blockage}\n"),
-           2);
-  const Report& report = product.report;
-  CHECK(value_of<std::int64_t>(report, "n_passages") == 19);
-  CHECK(value_of<std::int64_t>(report, "n_passages_open") == 19);
-  CHECK(value_of<std::int64_t>(report, "n_blockages") == 21);
-  CHECK(value_of<std::int64_t>(report, "n_blockages_shut") == 21);
-  for (const LonLatLine& line : read_lines(transects, "Critical_Land_Blockage")) {
-    CAPTURE(line.name);
-    CHECK(n_links_across(*product.grid, line) == 0);
-  }
-  CHECK(value_of<double>(report, "area_m2") == doctest::Approx(358.9e12).epsilon(0.01));
-  // The whole grid has 1 % more cells than the integral of its spacing, of which 115 k is a part.
-  const double excess = static_cast<double>(product.mesh.n_vertices()) / report.expected_vertices;
-  const auto n_cells = static_cast<double>(product.grid->n_cells());
-  CAPTURE(n_cells);
-  CHECK(n_cells / excess == doctest::Approx(115.0e3).epsilon(0.01));
-  CHECK(n_cells == doctest::Approx(115.0e3).epsilon(0.03));
-  expect_sound(*product.grid);
-}
-
-TEST_CASE("published recipes have their number of ocean cells within 3 %") {
-  if (!has_etopo5()) return;
-  for (const auto& published : {std::pair{"240 km", 7.2e3}, std::pair{"120 km", 28.8e3}}) {
-    CAPTURE(published.first);
-    const Product product = made(uniform(published.first, "domain: {}\n"), 2);
-    CHECK(static_cast<double>(product.grid->n_cells()) ==
-          doctest::Approx(published.second).epsilon(0.03));
-  }
 }

@@ -24,6 +24,19 @@ inline Product made(const std::string& yaml, int threads, const std::string& fol
   return generate(context, read_settings(parse_config(yaml, "test.yaml"), folder), {});
 }
 
+/// A value of the report; fails the test where there is none.
+template <class T>
+T value_of(const Report& report, const std::string& section, const std::string& key) {
+  for (const ReportSection& candidate : report.sections) {
+    if (candidate.name != section) continue;
+    for (const auto& [name, value] : candidate.values) {
+      if (name == key) return std::get<T>(value);
+    }
+  }
+  FAIL("the report has no " << section << "." << key);
+  return {};
+}
+
 /// Valid, and the same to the last bit on 1, 2, 5 and 8 threads.
 inline Product checked(const std::string& yaml, const std::string& folder = ".") {
   CAPTURE(yaml);

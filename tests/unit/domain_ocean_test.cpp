@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <functional>
 
@@ -194,6 +195,53 @@ TEST_CASE("a passage steps past an island of one cell between two neighbours") {
   CHECK(report.passages[0].holds);
   CHECK(report.passages[0].n_cells == 2);
   CHECK(report.blockages[0].holds);
+}
+
+TEST_CASE("a passage through the cell of a blockage leaves the cells across it shut") {
+  const Grid grid = made_grid();
+  auto wet = wet_where(grid, [](double lon, double lat) {
+    return is_belt(lon, lat) && std::abs(lon) > 20.0 && std::abs(lon) < 160.0;
+  });
+  domain::OceanOptions options;
+  options.passages = {{"canal", {-25.0, 25.0}, {2.0, 2.0}},
+                      {"other canal", {155.0, 205.0}, {2.0, 2.0}}};
+  const std::vector<Index> canal = domain::cells_along(grid, options.passages[0]);
+  const auto are_beside = [&](Index a, Index b) {
+    const auto row = grid.cells_on_cell.row(a);
+    return std::find(row.begin(), row.end(), b) != row.end();
+  };
+  // A cell in the middle that the canal can't do without, and one beside it that is no way around.
+  std::size_t i = canal.size() / 2;
+  while (are_beside(canal[i - 1], canal[i + 1])) ++i;
+  REQUIRE(i + 2 < canal.size());
+  const Index middle = canal[i];
+  const auto row = grid.cells_on_cell.row(middle);
+  const Index pond = *std::find_if(row.begin(), row.end(), [&](Index cell) {
+    return std::find(canal.begin(), canal.end(), cell) == canal.end() &&
+           !(are_beside(cell, canal[i - 1]) && are_beside(cell, canal[i + 1]));
+  });
+  wet[at(pond)] = 1.0;
+  REQUIRE(ocean_of(grid, wet, options).report.n_bodies == 1);
+  // A short line in the canal's cell, across the link to the pond.
+  const Vec3 &a = grid.cell_position[at(middle)], &b = grid.cell_position[at(pond)];
+  const Vec3 along = 0.1 * a.cross(b - a);
+  LonLatLine wall{"wall", {}, {}};
+  for (const Vec3& p : {Vec3(a + 0.4 * (b - a) + along), Vec3(a + 0.4 * (b - a) - along)}) {
+    const LonLat place = grid.surface.lon_lat(grid.surface.project(p), grid.latitude);
+    wall.lon_deg.push_back(place.lon_rad * kDegPerRad);
+    wall.lat_deg.push_back(place.lat_rad * kDegPerRad);
+  }
+  const std::vector<Index> cells = domain::cells_along(grid, wall);
+  REQUIRE(cells == std::vector<Index>{middle});
+  CHECK(domain::links_across(grid, wall, cells) ==
+        std::vector<domain::Link>{{std::min(middle, pond), std::max(middle, pond)}});
+  options.blockages = {wall};
+  const domain::Ocean ocean = ocean_of(grid, wet, options);
+  CHECK(ocean.report.passages[0].holds);
+  CHECK(ocean.report.blockages[0].holds);
+  CHECK(ocean.report.blockages[0].n_shared == 1);
+  CHECK(std::count(ocean.culled.old_cell.begin(), ocean.culled.old_cell.end(), middle) == 1);
+  CHECK(std::count(ocean.culled.old_cell.begin(), ocean.culled.old_cell.end(), pond) == 0);
 }
 
 TEST_CASE("what pruning takes beyond the ends of a passage comes back as far as it is needed") {
