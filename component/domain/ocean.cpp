@@ -174,6 +174,7 @@ Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<doubl
   keep_bodies(exec, grid, options, sea, report);
   judge_passages(passages, sea, report.passages);
   judge_blockages(grid, blockages, sea, report.blockages);
+  report.coast = measure_coast(exec, grid, sea, wet_fraction, options.least_wet);
   out.culled = cull(exec, grid, order_cells(exec, grid, sea, options.order, options.n_parts));
   count_elements(exec, out.culled.grid, report);
   return out;

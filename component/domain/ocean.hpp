@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/progress.hpp"
+#include "domain/coast.hpp"
 #include "domain/cull.hpp"
 #include "domain/mask.hpp"
 #include "domain/order.hpp"
@@ -53,6 +54,7 @@ struct OceanReport {
   PruneReport pruned;
   std::int64_t n_cells_given_back = 0;  ///< of those, since a passage needs them
   std::vector<LineReport> passages, blockages;
+  CoastReport coast;
 };
 
 struct Ocean {

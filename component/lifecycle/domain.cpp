@@ -5,6 +5,7 @@
 
 #include "domain/cell_means.hpp"
 #include "domain/cull.hpp"
+#include "domain/fit.hpp"
 #include "domain/ocean.hpp"
 #include "domain/transects.hpp"
 
@@ -99,6 +100,29 @@ ReportSection section_of(const domain::OceanReport& report) {
            {"blockages_not_shut", blockages.failed}}};
 }
 
+ReportSection section_of(const domain::CoastReport& coast) {
+  ReportSection section{"coast", {{"n_edges", coast.n_edges}, {"length_m", coast.length_m}}};
+  if (coast.n_edges == 0) return section;
+  const auto add = [&](const char* key, const ReportValue& value) {
+    section.values.emplace_back(key, value);
+  };
+  const auto add_corner = [&](const std::string& name, const domain::Corner& corner) {
+    section.values.emplace_back(name + "_deg", corner.angle_deg);
+    section.values.emplace_back(name + "_lon_deg", corner.where.lon_rad * kDegPerRad);
+    section.values.emplace_back(name + "_lat_deg", corner.where.lat_rad * kDegPerRad);
+  };
+  add("line_m", coast.line_m);
+  add("length_over_line", coast.length_m / coast.line_m);
+  add("offset_m", coast.offset_m);
+  add("mean_turn_deg", coast.mean_turn_deg);
+  add("stair_share", coast.stair_share);
+  add("n_sea_tips", coast.n_sea_tips);
+  add("n_land_tips", coast.n_land_tips);
+  add_corner("sharpest_sea", coast.sharpest_sea);
+  add_corner("sharpest_land", coast.sharpest_land);
+  return section;
+}
+
 /// New ids of some old ones; kNone for those that are gone.
 Index id_in(const Array<Index>& old_ids, Index old) {
   const auto found = std::find(old_ids.begin(), old_ids.end(), old);
@@ -118,6 +142,26 @@ void rename(const DomainIds& ids, Extreme& extreme) {
 
 }  // namespace
 
+void fit_mesh_to_coast(Context& context, const Settings& settings, const Inputs& inputs, Mesh& mesh,
+                       Report& report) {
+  const Phase phase(context.monitor, "fit_coast", mesh.n_vertices());
+  const auto finest =
+      std::min_element(mesh.vertices.begin(), mesh.vertices.end(),
+                       [](const Vertex& a, const Vertex& b) { return a.spacing < b.spacing; });
+  const LatLonField elevation_m = elevation_table(context, inputs, finest->spacing);
+  const domain::FitReport fit = domain::fit_to_coast(
+      context, {elevation_m, sea_level_m(settings, inputs), settings.domain->options.least_wet},
+      {settings.surface, settings.latitude}, mesh);
+  context.monitor.log(
+      LogLevel::info,
+      text("coast: ", fit.n_moved, " vertices moved, ", fit.misplaced_before_m2 * 1e-12,
+           " million km2 on its wrong side before, ", fit.misplaced_after_m2 * 1e-12, " after"));
+  report.sections.push_back({"fit_coast",
+                             {{"n_moved", fit.n_moved},
+                              {"misplaced_before_m2", fit.misplaced_before_m2},
+                              {"misplaced_after_m2", fit.misplaced_after_m2}}});
+}
+
 DomainIds cull_to_domain(Context& context, const Settings& settings, const Inputs& inputs,
                          Grid& grid, Report& report) {
   const Phase phase(context.monitor, "domain", grid.n_cells());
@@ -135,6 +179,7 @@ DomainIds cull_to_domain(Context& context, const Settings& settings, const Input
                            ocean.report.area_m2 * 1e-12, " million km2, ",
                            ocean.report.n_bodies_kept, " of ", ocean.report.n_bodies, " bodies"));
   report.sections.push_back(section_of(ocean.report));
+  report.sections.push_back(section_of(ocean.report.coast));
   grid = std::move(ocean.culled.grid);
   return {std::move(ocean.culled.old_cell), std::move(ocean.culled.old_vertex)};
 }

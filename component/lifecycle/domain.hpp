@@ -20,6 +20,11 @@ struct DomainIds {
   Array<Index> vertices;  ///< [n_vertices] the mesh's triangle
 };
 
+/// Phase "fit_coast", where the settings ask for it: moves vertices of the mesh so that cells
+/// follow the coast; section "fit_coast" of the report, with a line in the log.
+void fit_mesh_to_coast(Context& context, const Settings& settings, const Inputs& inputs, Mesh& mesh,
+                       Report& report);
+
 /// Phase "domain": selects the domain and culls the grid to it; section "domain" of the report,
 /// with a line in the log, and a warning for every passage or blockage that does not hold. The
 /// settings must have a domain.

@@ -355,6 +355,10 @@ Product generate(Context& context, const Settings& given, const Inputs& inputs, 
   } else {
     product.mesh = triangulate(context, settings, sized.field, report.sections);
     check_count(settings, product.mesh, report.expected_vertices);
+    if (settings.domain && settings.domain->fits_coast) {
+      fit_mesh_to_coast(context, settings, inputs, product.mesh, report);
+      sized.field.evaluate(context.exec, product.mesh.vertices);
+    }
   }
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = std::move(sized.field);

@@ -67,8 +67,9 @@ void read_order(MapReader& domain, domain::OceanOptions& out) {
 std::optional<DomainSettings> read_domain(MapReader& root) {
   if (!root.has("domain")) return std::nullopt;
   DomainSettings out;
-  MapReader domain = root.map("domain", {"wet_fraction", "sea_level", "land", "passages",
-                                         "blockages", "bodies", "at", "remove", "order", "parts"});
+  MapReader domain =
+      root.map("domain", {"wet_fraction", "sea_level", "land", "passages", "blockages", "bodies",
+                          "at", "remove", "fit_coast", "order", "parts"});
   constexpr double kLeastShare = 0.001;  // at 0 every cell is sea
   out.options.least_wet =
       domain.quantity("wet_fraction", Dimension::none, Bounds::between(kLeastShare, 1.0), "0.5");
@@ -91,6 +92,7 @@ std::optional<DomainSettings> read_domain(MapReader& root) {
     return std::find(removed.begin(), removed.end(), what) != removed.end();
   };
   out.options.prune = {removes("bays"), removes("channels")};
+  out.fits_coast = domain.boolean("fit_coast", false);
   read_order(domain, out.options);
   return out;
 }

@@ -22,6 +22,7 @@ struct DomainSettings {
   FileRequest land;              ///< polygons in place of the bathymetry; no file: none
   std::string land_feature;      ///< feature to take; empty: all
   LinesRequest passages, blockages;
+  bool fits_coast = false;  ///< moves cells along the coast before the dual is built
 
   bool needs_bathymetry() const { return land.file.empty(); }
 };

@@ -314,6 +314,15 @@ void add_region(const ReportSection& section, std::vector<std::string>& lines) {
                   count("n_relaxation") + " relaxed, " + count("n_specified") + " specified");
 }
 
+void add_coast(const ReportSection& section, std::vector<std::string>& lines) {
+  if (real(section, "n_edges") == 0.0) return;
+  lines.push_back(line(
+      "coast       %.0f km, %.3f of its line, %.1f km off; %.0f tips; stairs %.0f %%",
+      1e-3 * real(section, "length_m"), real(section, "length_over_line"),
+      1e-3 * real(section, "offset_m"), real(section, "n_sea_tips") + real(section, "n_land_tips"),
+      1e2 * real(section, "stair_share")));
+}
+
 /// Of the section "constraints"; bad triangles miss the certificate.
 void add_constraints(const ReportSection& section, std::vector<std::string>& lines) {
   const auto count = [&](const char* key) {
@@ -455,6 +464,7 @@ std::string report_text(const Report& report) {
     if (section.name == "constraints") add_constraints(section, lines);
     if (section.name == "domain") add_domain(section, lines);
     if (section.name == "region") add_region(section, lines);
+    if (section.name == "coast") add_coast(section, lines);
     if (section.name == "layers") add_layers(section, lines);
   }
   add_partitions(report.partitions, lines);

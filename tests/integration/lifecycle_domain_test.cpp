@@ -60,6 +60,21 @@ TEST_CASE("a culled product has the same bits for any number of threads, and is 
   expect_sound(grid);
 }
 
+TEST_CASE("a fitted coast lies nearer to that of the data, in a grid that is still well centred") {
+  const auto product_of = [](const char* fit) {
+    return checked(uniform(
+        "600 km", kEmbedded + "domain: {fit_coast: " + fit + "}\nrequire: {well_centred: true}\n"));
+  };
+  const Product plain = product_of("false"), fitted = product_of("true");
+  const auto offset_m = [](const Product& product) {
+    return value_of<double>(product.report, "coast", "offset_m");
+  };
+  CHECK(offset_m(fitted) < 0.8 * offset_m(plain));
+  CHECK(value_of<std::int64_t>(fitted.report, "fit_coast", "n_moved") > 100);
+  CHECK(fitted.report.quality.relative_edge_min.value > 0.65);
+  expect_sound(*fitted.grid);
+}
+
 TEST_CASE("land polygons make an ocean, on baselines and ellipsoids too") {
   const TemporaryFolder folder;
   folder.write(
