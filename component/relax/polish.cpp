@@ -56,12 +56,22 @@ double score(const Mesh& mesh, Index tri) {
   });
 }
 
-bool is_bad(const Mesh& mesh, Index tri, double target) {
-  const auto& v = mesh.triangle(tri).vertex;
-  return !is_clearly_good(mesh.vertices[at(v[0])], mesh.vertices[at(v[1])], mesh.vertices[at(v[2])],
-                          target) &&
-         score(mesh, tri) < target;
-}
+// Triangles whose score is below the target.
+struct Badness {
+  double target;
+  ClearlyGood clearly_good{target};
+
+  bool has(const Mesh& mesh, Index tri) const {
+    const auto& v = mesh.triangle(tri).vertex;
+    const Vertex &a = mesh.vertices[at(v[0])], &b = mesh.vertices[at(v[1])],
+                 &c = mesh.vertices[at(v[2])];
+    const Vec3 p = a.position();
+    return !clearly_good.holds(
+               p, b.position() - p, c.position() - p,
+               {a.spacing + b.spacing, a.spacing + c.spacing, b.spacing + c.spacing}) &&
+           score(mesh, tri) < target;
+  }
+};
 
 // A mesh and one triangle at each vertex.
 struct MeshView {
@@ -81,6 +91,7 @@ struct MeshView {
 // Ids of the triangles below the target that have a free corner, ascending; of a part when there is
 // one.
 std::vector<Index> find_bad(parallel::Executor& exec, const MeshView& view, double target) {
+  const Badness bad{target};
   const auto n = view.part == nullptr ? static_cast<std::int64_t>(view.mesh.n_triangles())
                                       : static_cast<std::int64_t>(view.part->triangles.size());
   return parallel::collect<Index>(
@@ -89,7 +100,7 @@ std::vector<Index> find_bad(parallel::Executor& exec, const MeshView& view, doub
           const Index tri = view.part == nullptr
                                 ? static_cast<Index>(i)
                                 : view.part->triangles[static_cast<std::size_t>(i)];
-          if (is_bad(view.mesh, tri, target) && view.has_free_corner(tri)) found.push_back(tri);
+          if (bad.has(view.mesh, tri) && view.has_free_corner(tri)) found.push_back(tri);
         }
       });
 }
@@ -255,13 +266,14 @@ std::vector<Index> still_bad(parallel::Executor& exec, const MeshView& view, dou
   }
   std::sort(suspects.begin(), suspects.end());
   suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
+  const Badness bad{target};
   return parallel::collect<Index>(
       exec, static_cast<std::int64_t>(suspects.size()), kListGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (std::int64_t i = begin; i < end; ++i) {
           const Index tri = suspects[static_cast<std::size_t>(i)];
           if (mesh.triangle(tri).vertex[0] != kNone && view.has_free_corner(tri) &&
-              is_bad(mesh, tri, target)) {
+              bad.has(mesh, tri)) {
             found.push_back(tri);
           }
         }

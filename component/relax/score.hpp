@@ -33,9 +33,54 @@ inline double side_score(double cot, double other) {
   return 1.0 - kSideWeight * std::abs(cot - other);
 }
 
-/// Whether a triangle's score and those of its sides are all at least `target`, found without a
-/// root or a division; false says nothing. Almost all triangles of a relaxed mesh pass.
-bool is_clearly_good(const Vertex& a, const Vertex& b, const Vertex& c, double target);
+/// area_length() of a triangle at `a` from the product of its normal and a, twice its area and the
+/// sum of its squared sides.
+inline double quality_of(double outwards, double twice_area, double squares) {
+  constexpr double kScale = 2.3094010767585034;  // 4 sqrt(3) / 3, with the mean of the squares
+  return (outwards > 0.0 ? kScale : -kScale) * (0.5 * twice_area) / (squares / 3.0);
+}
+/// A squared side over the squared spacing, which is the mean of its ends'.
+inline double relative_square(double square, double sum_of_spacings) {
+  return square / (0.25 * sum_of_spacings * sum_of_spacings);
+}
+/// Score of a shortest and a longest side by these.
+double lengths_score(double least_relative_square, double most_relative_square);
+
+/// Bounds within which a triangle's score and those of its sides are all at least a target, that
+/// need no root and no division; beyond them nothing is known. Almost all triangles of a relaxed
+/// mesh keep them.
+class ClearlyGood {
+ public:
+  explicit ClearlyGood(double target);
+  /// Of an angle, by the product of its sides and the square of twice the triangle's area.
+  bool has_angle(double product, double cross) const {
+    return product > 0.0 && product * product <= high2_ * cross &&
+           (is_low_ || product * product >= low2_ * cross);
+  }
+  /// Of a side, by its square and the sum of its ends' spacings.
+  bool has_length(double square, double sum_of_spacings) const {
+    return square >= shortest2_ * sum_of_spacings * sum_of_spacings &&
+           square <= longest2_ * sum_of_spacings * sum_of_spacings;
+  }
+  /// Of the triangle at `a`, by its sides to b and c; sums_of_spacings: of ab, ac and bc.
+  bool holds(const Vec3& a, const Vec3& ab, const Vec3& ac,
+             const std::array<double, 3>& sums_of_spacings) const {
+    const Vec3 normal = ab.cross(ac);
+    const double cross = normal.squaredNorm();  // (twice the area)^2
+    const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), dot_a = ab.dot(ac);
+    const double dot_b = bb - dot_a, dot_c = cc - dot_a, aa = dot_b + dot_c;
+    // area_length = 2 sqrt(3) |normal| / (aa + bb + cc).
+    const double squares = aa + bb + cc;
+    return normal.dot(a) > 0.0 && 12.0 * cross >= quality2_ * squares * squares &&
+           has_length(bb, sums_of_spacings[0]) && has_length(cc, sums_of_spacings[1]) &&
+           has_length(aa, sums_of_spacings[2]) && has_angle(dot_a, cross) &&
+           has_angle(dot_b, cross) && has_angle(dot_c, cross);
+  }
+
+ private:
+  double quality2_, shortest2_, longest2_, low2_, high2_;
+  bool is_low_;  // no cotangent is too low
+};
 
 /// Lowers `least` to the scores of those sides of a triangle that are its own: a side belongs to
 /// the triangle whose angle there is farther from 60 degrees. across(k): the cotangent on the other
