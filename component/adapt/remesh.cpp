@@ -123,6 +123,7 @@ class LocalRemesh {
 
  private:
   void fill(const OldMesh& old);
+  std::vector<Index> free_triangles(Index first_filling, std::vector<Index> flipped) const;
   bool release(const Missed& missed);
   Remeshed finish();
 
@@ -163,10 +164,27 @@ void LocalRemesh::fill(const OldMesh& old) {
     for (const Index v : mesh_.triangle(tri).vertex) joined.at_vertex[at(v)] = tri;
   }
   part_ = {std::move(is_free), {}, std::move(joined.at_vertex)};
-  part_.triangles = triangles_of_free(context_.exec, mesh_, part_.is_free);
+  part_.triangles = free_triangles(joined.first_filling, std::move(flipped));
   for (Index v = 0; v < old.mesh.n_vertices(); ++v) {
     if (region_.change[at(v)] == Change::keep) kept_.push_back(v);
   }
+}
+
+// triangles_of_free(), but where no old vertex moves all are fillings or were flipped.
+std::vector<Index> LocalRemesh::free_triangles(Index first_filling,
+                                               std::vector<Index> flipped) const {
+  if (region_.n_moving > 0) return triangles_of_free(context_.exec, mesh_, part_.is_free);
+  std::vector<Index> out = std::move(flipped);
+  std::erase_if(out, [&](Index tri) { return tri >= first_filling; });
+  std::sort(out.begin(), out.end());
+  out.erase(std::unique(out.begin(), out.end()), out.end());
+  for (Index tri = first_filling; tri < mesh_.n_triangles(); ++tri) out.push_back(tri);
+  std::erase_if(out, [&](Index tri) {
+    const auto& corners = mesh_.triangle(tri).vertex;
+    return std::none_of(corners.begin(), corners.end(),
+                        [&](Index v) { return part_.is_free[at(v)] != 0; });
+  });
+  return out;
 }
 
 // Sets the vertices around the triangles free; false when there is none that may be.
@@ -215,7 +233,6 @@ Remeshed LocalRemesh::run(const OldMesh& old) {
   again.spring_rounds = 0;
   again.centroidal_rounds = 0;
   for (;;) {
-    part_.triangles = triangles_of_free(context_.exec, mesh_, part_.is_free);
     const Missed missed = find_missed(context_.exec, input_.spacing, mesh_, part_);
     report_.n_obtuse = missed.n_obtuse;
     report_.n_short = missed.n_short;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 namespace delos {
 namespace {
@@ -18,24 +19,20 @@ const double kSidesAreaLength = 4.0 * std::sqrt(3.0);
 constexpr double kRounding = 1e-9;
 constexpr double kNoBound = -std::numeric_limits<double>::infinity();
 
-// What surrounds one vertex, in arrays of its own: ring vertex i and the next make triangle i. What
-// does not change while the vertex moves is found once, and cheap bounds come before roots.
+// A vertex of the ring around another one, and the one beyond the side that follows it.
+struct Link {
+  const Vertex* ring;
+  const Vertex* beyond;
+};
+
+// What surrounds one vertex: ring vertex i and the next make triangle i. What does not change while
+// the vertex moves is found once, and cheap bounds come before roots.
 class Star {
  public:
-  void load(const Patch& patch, const patch::Stars& stars, Index vertex) {
-    ring_.clear();
-    beyond_.clear();
-    for (Index i = stars.offsets[at(vertex)]; i < stars.offsets[at(vertex) + 1]; ++i) {
-      const Index tri = stars.corners[at(i)] / 3;
-      const int k = static_cast<int>(stars.corners[at(i)] % 3);
-      ring_.push_back(patch.vertex(patch.triangle(tri).vertex[at(next_corner(k))]));
-      beyond_.push_back(&patch.across(tri, k));
-    }
-    resize(ring_.size());
-    for (std::size_t i = 0; i < size(); ++i) {
-      base_[i] = ring_[next(i)].position() - ring_[i].position();
-      base_square_[i] = base_[i].squaredNorm();
-    }
+  /// Links of the vertex, counter-clockwise; they outlive the star.
+  void load(std::span<const Link> links) {
+    links_ = links;
+    resize(links.size());
     has_fixed_ = false;
   }
 
@@ -43,7 +40,7 @@ class Star {
   void place(const Vec3& p) {
     centre_ = p;
     for (std::size_t i = 0; i < size(); ++i) {
-      spoke_[i] = ring_[i].position() - p;
+      spoke_[i] = ring(i).position() - p;
       spoke_square_[i] = spoke_[i].squaredNorm();
     }
   }
@@ -51,7 +48,7 @@ class Star {
   /// Whether the score is above the target of `limits`, as far as that can be seen at once.
   bool is_clearly_good(double spacing, const ClearlyGood& limits) const {
     for (std::size_t i = 0; i < size(); ++i) {
-      const Vertex &from = ring_[i], &to = ring_[next(i)];
+      const Vertex &from = ring(i), &to = ring(next(i));
       if (!limits.holds(
               centre_, spoke_[i], spoke_[next(i)],
               {spacing + from.spacing, spacing + to.spacing, from.spacing + to.spacing})) {
@@ -59,8 +56,8 @@ class Star {
       }
     }
     for (std::size_t i = 0; i < size(); ++i) {
-      const Vec3 p = beyond_[i]->position();
-      const Vec3 a = ring_[next(i)].position() - p, b = ring_[i].position() - p;
+      const Vec3 p = links_[i].beyond->position();
+      const Vec3 a = ring(next(i)).position() - p, b = ring(i).position() - p;
       if (!limits.has_angle(a.dot(b), a.cross(b).squaredNorm())) return false;
     }
     return true;
@@ -100,7 +97,7 @@ class Star {
     find_fixed();
     double least = least_base_, most = most_base_;
     for (std::size_t i = 0; i < size(); ++i) {
-      spoke_relative_[i] = relative_square(spoke_square_[i], spacing + ring_[i].spacing);
+      spoke_relative_[i] = relative_square(spoke_square_[i], spacing + ring(i).spacing);
       least = std::min(least, spoke_relative_[i]);
       most = std::max(most, spoke_relative_[i]);
     }
@@ -111,7 +108,7 @@ class Star {
     Vec3 force(0, 0, 0);
     for (std::size_t i = 0; i < size(); ++i) {
       const double length = std::sqrt(spoke_square_[i]);
-      force += (1.0 - 0.5 * (spacing + ring_[i].spacing) / length) * spoke_[i];
+      force += (1.0 - 0.5 * (spacing + ring(i).spacing) / length) * spoke_[i];
     }
     return force;
   }
@@ -145,7 +142,8 @@ class Star {
     std::array<Vec3, 3> cot;
   };
 
-  std::size_t size() const { return ring_.size(); }
+  std::size_t size() const { return links_.size(); }
+  const Vertex& ring(std::size_t i) const { return *links_[i].ring; }
   std::size_t next(std::size_t i) const { return i + 1 < size() ? i + 1 : 0; }
   std::size_t before(std::size_t i) const { return i > 0 ? i - 1 : size() - 1; }
 
@@ -170,8 +168,10 @@ class Star {
     least_base_ = std::numeric_limits<double>::infinity();
     most_base_ = 0.0;
     for (std::size_t i = 0; i < size(); ++i) {
-      const Vertex &from = ring_[i], &to = ring_[next(i)];
-      cot_beyond_[i] = cotangent(*beyond_[i], to, from);
+      const Vertex &from = ring(i), &to = ring(next(i));
+      base_[i] = to.position() - from.position();
+      base_square_[i] = base_[i].squaredNorm();
+      cot_beyond_[i] = cotangent(*links_[i].beyond, to, from);
       base_relative_[i] = relative_square(base_square_[i], from.spacing + to.spacing);
       least_base_ = std::min(least_base_, base_relative_[i]);
       most_base_ = std::max(most_base_, base_relative_[i]);
@@ -189,7 +189,7 @@ class Star {
     Gradients& out = gradients_[i];
     if (has_gradients_[i] != 0) return out;
     has_gradients_[i] = 1;
-    const Vec3 &p = centre_, a = ring_[i].position(), b = ring_[next(i)].position();
+    const Vec3 &p = centre_, a = ring(i).position(), b = ring(next(i)).position();
     const Vec3 normal = spoke_[i].cross(spoke_[next(i)]);
     const double twice_area = std::sqrt(normal.squaredNorm());
     const double squares = base_square_[i] + spoke_square_[i] + spoke_square_[next(i)];
@@ -204,12 +204,11 @@ class Star {
     return out;
   }
 
-  std::vector<Vertex> ring_;
-  std::vector<const Vertex*> beyond_;  // of the triangle across ring side i
-  std::vector<Vec3> base_;             // from ring vertex i to the next
-  std::vector<double> base_square_;
+  std::span<const Link> links_;
+  // Of find_fixed().
   bool has_fixed_ = false;
-  std::vector<double> base_relative_, cot_beyond_;
+  std::vector<Vec3> base_;  // from ring vertex i to the next
+  std::vector<double> base_square_, base_relative_, cot_beyond_;
   double least_base_ = 0.0, most_base_ = 0.0;
   // Of place().
   Vec3 centre_;
@@ -229,7 +228,15 @@ class Climber {
         clearly_good_(enough + kRounding),
         patch_(patch),
         stars_(patch::stars(patch)),
-        is_settled_(at(patch.n_free), 0) {}
+        is_settled_(at(patch.n_free), 0) {
+    // Vertices keep their places in memory and their neighbours while they move.
+    for (const Index corner : stars_.corners) {
+      const Index tri = corner / 3;
+      const int k = static_cast<int>(corner % 3);
+      links_.push_back(
+          {&patch.vertex(patch.triangle(tri).vertex[at(next_corner(k))]), &patch.across(tri, k)});
+    }
+  }
 
   // Moves the vertex if it is not good enough and that raises the worst score of its star.
   bool improve(Index vertex) {
@@ -237,7 +244,7 @@ class Climber {
     if (is_settled_[at(vertex)] != 0) return false;
     is_settled_[at(vertex)] = 1;
     const Vertex p = patch_.vertex(vertex);
-    star_.load(patch_, stars_, vertex);
+    star_.load(links_of(vertex));
     star_.place(p.position());
     if (star_.is_clearly_good(p.spacing, clearly_good_)) return false;
     const double before = star_.score(p.spacing);
@@ -250,7 +257,7 @@ class Climber {
 
   void spring(Index vertex) {
     const Vertex p = patch_.vertex(vertex);
-    star_.load(patch_, stars_, vertex);
+    star_.load(links_of(vertex));
     star_.place(p.position());
     const Vertex q = with_spacing(moved(p, kSpringStep * star_.spring_force(p.spacing)));
     star_.place(q.position());
@@ -290,6 +297,11 @@ class Climber {
     return false;
   }
 
+  std::span<const Link> links_of(Index vertex) const {
+    const Index begin = stars_.offsets[at(vertex)], end = stars_.offsets[at(vertex) + 1];
+    return {links_.data() + begin, links_.data() + end};
+  }
+
   void unsettle(Index vertex) {
     if (vertex < patch_.n_free) is_settled_[at(vertex)] = 0;
   }
@@ -313,6 +325,7 @@ class Climber {
   ClearlyGood clearly_good_;
   Patch& patch_;
   patch::Stars stars_;
+  std::vector<Link> links_;  // by corner of the stars
   std::vector<char> is_settled_;
   Star star_;
 };

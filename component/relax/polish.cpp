@@ -2,6 +2,7 @@
 #include "relax/polish.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <utility>
 
@@ -27,6 +28,9 @@ constexpr std::size_t kMovesOnly = 2;  // the first means, which only move verti
 // for those that spoil a grid.
 constexpr double kNearTarget = 0.01;
 constexpr std::size_t kMeansNearTarget = 3;
+// In a part of a mesh, which is to cost no more than its share, it is not worth more than moves:
+// the first changes of topology would take half of the time of a new patch.
+constexpr std::size_t kMeansNearTargetOfPart = kMovesOnly;
 // The rougher the spacing, the lower the aim. From so many triangles on, not a few of a coarse
 // mesh:
 constexpr std::size_t kManyBad = 700;
@@ -171,10 +175,11 @@ struct Job {
 // afterwards.
 std::vector<Job> pick_jobs(parallel::Executor& exec, const MeshView& view, const TriedMeans& tried,
                            const Wanted& wanted, std::vector<char>& is_taken) {
+  const std::size_t n_near = view.part == nullptr ? kMeansNearTarget : kMeansNearTargetOfPart;
   std::vector<Job> jobs;
   for (const Index tri : wanted.triangles) {
     const std::size_t next = tried_at(view.mesh, tried, tri);
-    if (next >= kMeansNearTarget && score(view.mesh, tri) >= wanted.aim.quality - kNearTarget) {
+    if (next >= n_near && score(view.mesh, tri) >= wanted.aim.quality - kNearTarget) {
       continue;
     }
     if (next < wanted.aim.n_means) jobs.push_back({tri, kMeans[next], {}, {}, false});
@@ -306,22 +311,65 @@ std::optional<Aim> choose_last_aim(const MeshView& view, const RelaxOptions& opt
   return last;
 }
 
-// Takes out what patches gave up; the part follows.
-void compact_all(parallel::Executor& exec, Mesh& mesh, RelaxPart* part, MeshEdits& edits) {
-  if (edits.dead_vertices.empty()) return;
-  if (part != nullptr) {
-    std::sort(edits.dead_vertices.begin(), edits.dead_vertices.end());
-    auto next = edits.dead_vertices.begin();
-    std::size_t to = 0;
-    for (std::size_t v = 0; v < part->is_free.size(); ++v) {
-      if (next != edits.dead_vertices.end() && at(*next) == v) {
-        ++next;
-      } else {
-        part->is_free[to++] = part->is_free[v];
-      }
-    }
-    part->is_free.resize(to);
+// Puts the last vertex or triangle into each gap that patches left, so that no more is rewritten
+// than what touches those: a few triangles in place of all. False, and nothing done, when the last
+// vertices are not free.
+bool fill_gaps(Mesh& mesh, TriangleAtVertex& at_vertex, RelaxPart& part, MeshEdits& edits) {
+  const std::size_t n_dead = edits.dead_vertices.size();
+  if (!std::all_of(part.is_free.end() - static_cast<std::ptrdiff_t>(n_dead), part.is_free.end(),
+                   [](char is_free) { return is_free != 0; })) {
+    return false;
   }
+  // The highest first: what lies behind a gap is then alive.
+  std::sort(edits.dead_vertices.begin(), edits.dead_vertices.end(), std::greater<>());
+  for (const Index gap : edits.dead_vertices) {
+    const Index last = mesh.n_vertices() - 1;
+    if (gap != last) {
+      const Index first = at_vertex[at(last)];
+      Index tri = first;
+      do {
+        Triangle& t = mesh.triangle(tri);
+        const int k = corner_at(t, last);
+        tri = t.neighbour[at(next_corner(k))];
+        std::replace(t.vertex.begin(), t.vertex.end(), last, gap);
+      } while (tri != first);
+      mesh.vertices[at(gap)] = mesh.vertices.back();
+      at_vertex[at(gap)] = first;
+    }
+    mesh.vertices.pop_back();
+    at_vertex.pop_back();
+  }
+  part.is_free.resize(mesh.vertices.size());
+  std::sort(edits.dead_triangles.begin(), edits.dead_triangles.end(), std::greater<>());
+  for (const Index gap : edits.dead_triangles) {
+    const Index last = mesh.n_triangles() - 1;
+    if (gap != last) {
+      const Triangle moved = mesh.triangles.back();
+      for (const Index n : moved.neighbour) {
+        auto& around = mesh.triangle(n).neighbour;
+        std::replace(around.begin(), around.end(), last, gap);
+      }
+      for (const Index v : moved.vertex) at_vertex[at(v)] = gap;
+      mesh.triangle(gap) = moved;
+    }
+    mesh.triangles.pop_back();
+  }
+  return true;
+}
+
+// Takes out what patches gave up; the part follows, but for its triangles.
+void compact_part(parallel::Executor& exec, Mesh& mesh, RelaxPart& part, MeshEdits& edits) {
+  std::sort(edits.dead_vertices.begin(), edits.dead_vertices.end());
+  auto next = edits.dead_vertices.begin();
+  std::size_t to = 0;
+  for (std::size_t v = 0; v < part.is_free.size(); ++v) {
+    if (next != edits.dead_vertices.end() && at(*next) == v) {
+      ++next;
+    } else {
+      part.is_free[to++] = part.is_free[v];
+    }
+  }
+  part.is_free.resize(to);
   compact(exec, mesh, edits);
 }
 
@@ -353,7 +401,7 @@ class Polisher {
     report_.n_below_target = static_cast<std::int64_t>(n_below_target);
     report_.n_inserted = static_cast<std::int64_t>(mesh_.vertices.size() - n_vertices);
     report_.n_removed = static_cast<std::int64_t>(edits_.dead_vertices.size());
-    compact_all(context_.exec, mesh_, part_, edits_);
+    part_ != nullptr ? finish_part() : compact_mesh();
     return report_;
   }
 
@@ -374,12 +422,35 @@ class Polisher {
       for (const Index tri : written) {
         for (const Index v : mesh_.triangle(tri).vertex) at_vertex_[at(v)] = tri;
       }
+      if (part_ != nullptr) written_.insert(written_.end(), written.begin(), written.end());
       const std::size_t n_before = bad_.size();
       bad_ = still_bad(context_.exec, view_, aim.quality, std::move(bad_), written);
       context_.monitor.advance(static_cast<std::int64_t>(n_before) -
                                static_cast<std::int64_t>(bad_.size()));
       ++report_.rounds;
     }
+  }
+
+  void compact_mesh() {
+    if (!edits_.dead_vertices.empty()) compact(context_.exec, mesh_, edits_);
+  }
+
+  // Takes out what patches gave up and brings the part up to date.
+  void finish_part() {
+    if (!fill_gaps(mesh_, at_vertex_, *part_, edits_)) {
+      compact_part(context_.exec, mesh_, *part_, edits_);
+      part_->triangles = triangles_of_free(context_.exec, mesh_, part_->is_free);
+      return;
+    }
+    // Besides those written, what filled a gap may be new to the part.
+    std::vector<Index>& triangles = part_->triangles;
+    triangles.insert(triangles.end(), written_.begin(), written_.end());
+    triangles.insert(triangles.end(), edits_.dead_triangles.begin(), edits_.dead_triangles.end());
+    std::erase_if(triangles, [&](Index tri) {
+      return tri >= mesh_.n_triangles() || !view_.has_free_corner(tri);
+    });
+    std::sort(triangles.begin(), triangles.end());
+    triangles.erase(std::unique(triangles.begin(), triangles.end()), triangles.end());
   }
 
   Context& context_;
@@ -392,6 +463,7 @@ class Polisher {
   TriedMeans tried_;
   std::vector<char> is_taken_;
   std::vector<Index> bad_;
+  std::vector<Index> written_;  // of a part, in all rounds
   MeshEdits edits_;
   PolishReport report_;
 };

@@ -55,7 +55,8 @@ std::vector<Index> triangles_of_free(parallel::Executor& exec, const Mesh& mesh,
                                      const std::vector<char>& is_free);
 
 /// The same for a part: all other vertices keep their coordinates and spacing bit for bit, and stay
-/// in their order where free ones go; of `part`, is_free is kept up to date and the rest used up.
+/// in their order where free ones come and go; of `part`, is_free and triangles are kept up to date
+/// and the rest used up.
 /// Only triangles with a free corner count. A few of them may be left below the target because of
 /// vertices that may not move.
 RelaxReport relax_part(Context& context, const Target& target, const RelaxOptions& options,
