@@ -20,7 +20,38 @@ std::size_t at_index(I i) {
   return static_cast<std::size_t>(i);
 }
 
+// What the cells have, in the surroundings of each node of a table.
+LatLonField on_nodes(parallel::Executor& exec, const Grid& grid, const Array<double>& values,
+                     LatLonField table) {
+  sample(exec, raster_of_cells(exec, grid, values, cell_resolution_rad(grid), "the region"), table);
+  return table;
+}
+
 }  // namespace
+
+SpacingField followed_spacing(parallel::Executor& exec, const Grid& grid, const Region& region,
+                              const SpacingField& before, const SpacingField& wanted) {
+  LatLonField table_m = wanted.to_table();
+  const LatLonField share =
+      on_nodes(exec, grid, {region.share.begin(), region.share.end()}, table_m);
+  const double scale_m = grid.surface.scale_m();
+  for_rows(exec, table_m, [&](Index row, double* values) {
+    std::vector<Vertex> places;
+    for (Index i = 0; i < table_m.n_lon; ++i) {
+      const Vec3 p =
+          grid.surface.point({table_m.lon_rad(i), table_m.lat_rad(row)}, wanted.latitude());
+      places.push_back({p.x(), p.y(), p.z(), 0.0});
+    }
+    before.evaluate(places);
+    for (Index i = 0; i < table_m.n_lon; ++i) {
+      const double part = share.values[share.at(row, i)];
+      if (part >= 1.0) continue;  // to the last bit
+      const double before_m = places[at(i)].spacing * scale_m;
+      values[i] = before_m + part * (values[i] - before_m);
+    }
+  });
+  return SpacingField::table(exec, grid.surface, wanted.latitude(), table_m);
+}
 
 LatLonField share_made_anew(parallel::Executor& exec, const Grid& grid, const Region& region,
                             const SpacingField& spacing) {
@@ -28,9 +59,7 @@ LatLonField share_made_anew(parallel::Executor& exec, const Grid& grid, const Re
   for (std::size_t v = 0; v < is_anew.size(); ++v) {
     is_anew[v] = region.change[v] == Change::remove ? 1.0 : 0.0;
   }
-  LatLonField out = spacing.to_table();
-  sample(exec, raster_of_cells(exec, grid, is_anew, cell_resolution_rad(grid), "the region"), out);
-  return out;
+  return on_nodes(exec, grid, is_anew, spacing.to_table());
 }
 
 SpacingField scaled_where_anew(parallel::Executor& exec, const Ellipsoid& surface,

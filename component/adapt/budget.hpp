@@ -10,6 +10,12 @@
 
 namespace delos {
 
+/// What a mesh of a plan whose region passes is made for: the wanted spacing where its share is 1,
+/// that of the old mesh, `before`, where it is 0, and between them as much of each. On the nodes of
+/// the table of `wanted`.
+SpacingField followed_spacing(parallel::Executor& exec, const Grid& grid, const Region& region,
+                              const SpacingField& before, const SpacingField& wanted);
+
 /// Where a plan makes a mesh anew: the share of each node's surroundings, 0 to 1, on the nodes of
 /// the table of `spacing` (of a constant, one of 1 degree). `grid` is the dual of the plan's mesh.
 LatLonField share_made_anew(parallel::Executor& exec, const Grid& grid, const Region& region,

@@ -117,6 +117,40 @@ std::vector<Index> wanted_parts(const OldMesh& old, const std::vector<char>& fit
   return kept;
 }
 
+// Rings around the wanted vertices in which steps of `blend` lead through `tolerance`.
+int passing_rings(const RegionOptions& options) {
+  int n = 0;
+  for (double ratio = options.blend; ratio < options.tolerance && n < options.blend_rings; ++n) {
+    ratio *= options.blend;
+  }
+  return std::max(n, options.rings);
+}
+
+// The wanted parts with all their rings; their shares of the wanted spacing.
+Growth grown_parts(const OldMesh& old, const std::vector<char>& fit,
+                   const std::vector<char>& is_barred, const RegionOptions& options,
+                   std::vector<double>& share) {
+  share.assign(fit.size(), 0.0);
+  Growth grown(old, is_barred);
+  for (const Index v : wanted_parts(old, fit, is_barred, options)) {
+    if (!options.passes || fit[at(v)] == off_tolerance) grown.add(v);
+  }
+  const int n_rings = options.passes ? passing_rings(options) : options.blend_rings;
+  const auto give = [&](std::size_t first, double value) {
+    for (std::size_t i = first; i < grown.members().size(); ++i) {
+      share[at(grown.members()[i])] = value;
+    }
+  };
+  give(0, 1.0);
+  for (int ring = 1; ring <= n_rings; ++ring) {
+    const std::size_t first = grown.members().size();
+    const bool takes_all = options.passes && ring <= options.rings;
+    grown.add_ring([&](Index v) { return takes_all || fit[at(v)] != fits; });
+    give(first, options.passes ? 1.0 - ring / (n_rings + 1.0) : 1.0);
+  }
+  return grown;
+}
+
 }  // namespace
 
 Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingField& spacing,
@@ -130,11 +164,7 @@ Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingFi
     ++out.n_wanted;
     if (is_barred[v] != 0) ++out.n_held;
   }
-  Growth grown(old, is_barred);
-  for (const Index v : wanted_parts(old, fit, is_barred, options)) grown.add(v);
-  for (int ring = 0; ring < options.blend_rings; ++ring) {
-    grown.add_ring([&](Index v) { return fit[at(v)] != fits; });
-  }
+  const Growth grown = grown_parts(old, fit, is_barred, options, out.share);
   for (const Index v : grown.members()) out.change[at(v)] = Change::remove;
   out.n_removed = static_cast<std::int64_t>(grown.members().size());
 

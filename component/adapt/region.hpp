@@ -21,6 +21,10 @@ struct RegionOptions {
   double blend = 1.05;
   /// ... for at most so many rings.
   int blend_rings = 12;
+  /// In place of that: around the wanted vertices the wanted spacing passes into that of the mesh,
+  /// by steps of at most `blend`, in as many rings as `tolerance` needs (`rings` at least), for
+  /// spacings that differ everywhere. The mesh is then made for followed_spacing().
+  bool passes = false;
   /// Rings around what is removed whose vertices stay but may move.
   int moving_rings = 0;
   /// Regions of fewer wanted vertices are left alone.
@@ -34,7 +38,10 @@ enum class Change : std::uint8_t {
 };
 
 struct Region {
-  std::vector<Change> change;   ///< [n_vertices]
+  std::vector<Change> change;  ///< [n_vertices]
+  /// [n_vertices]: how far the new mesh goes from the spacing of the old one (0, what is kept) to
+  /// the wanted (1).
+  std::vector<double> share;
   std::vector<char> is_barred;  ///< [n_vertices]: fixed, or next to a fixed one
   std::int64_t n_wanted = 0;    ///< vertices whose spacing is outside the tolerance
   std::int64_t n_removed = 0;

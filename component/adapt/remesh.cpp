@@ -78,21 +78,37 @@ Verdict judge(const SpacingField& spacing, const Mesh& mesh, const Triangle& t) 
   return out;
 }
 
+// Of the part, and of the triangles beside it: where a hole is narrow its filling has triangles
+// without a free corner, too.
 Missed find_missed(parallel::Executor& exec, const SpacingField& spacing, const Mesh& mesh,
                    const RelaxPart& part) {
   struct Found {
     Index triangle;
     Verdict verdict;
   };
-  const auto all = parallel::collect<Found>(
+  const auto is_beside = [&](Index tri) {
+    const auto& v = mesh.triangle(tri).vertex;
+    return std::none_of(v.begin(), v.end(), [&](Index i) { return part.is_free[at(i)] != 0; });
+  };
+  auto all = parallel::collect<Found>(
       exec, static_cast<std::int64_t>(part.triangles.size()), kScanGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Found>& found) {
-        for (std::int64_t i = begin; i < end; ++i) {
-          const Index tri = part.triangles[at(i)];
+        const auto judge_one = [&](Index tri) {
           const Verdict verdict = judge(spacing, mesh, mesh.triangle(tri));
           if (verdict.is_obtuse || verdict.is_short) found.push_back({tri, verdict});
+        };
+        for (std::int64_t i = begin; i < end; ++i) {
+          judge_one(part.triangles[at(i)]);
+          for (const Index other : mesh.triangle(part.triangles[at(i)]).neighbour) {
+            if (is_beside(other)) judge_one(other);
+          }
         }
       });
+  std::sort(all.begin(), all.end(),
+            [](const Found& a, const Found& b) { return a.triangle < b.triangle; });
+  all.erase(std::unique(all.begin(), all.end(),
+                        [](const Found& a, const Found& b) { return a.triangle == b.triangle; }),
+            all.end());
   Missed out;
   for (const Found& found : all) {
     out.triangles.push_back(found.triangle);

@@ -24,6 +24,12 @@ constexpr int kRecipeRounds = 12;
 constexpr double kMostLocalScale = 1.05;
 /// Cells got for a cell asked of the recipe, where the last two steps say something else.
 constexpr double kLeastSlope = 0.1, kMostSlope = 2.0;
+/// Eddies are everywhere: one ring around what is off at first, and steps that a gradient limit
+/// would allow. Rings are added as long as the certificate is missed.
+constexpr int kPassingRings = 1, kMostPassingRings = 3;
+constexpr double kPassingStep = 1.1;
+/// Up to this share of the vertices the others are kept; a model loses less than by a whole remap.
+constexpr double kMostAnew = 0.8;
 /// No recipe can be asked for less.
 constexpr double kFewestCells = 12.0;
 
@@ -90,10 +96,13 @@ class Rebuild {
   Mesh run() {
     for (const double tolerance : widths()) {
       set_tolerance(tolerance);
+      const SpacingField wanted = sized_.field;
       const RemeshPlan plan = plan_remesh(context_, input(), options_);
-      if (cells_ == 0.0) return remesh(context_, input(), options_, plan, report_).mesh;
+      if (cells_ == 0.0) return follow_wanted(plan, wanted);
+      follow(plan, wanted);
       if (plan.kind == RemeshKind::full || tolerance == 1.0) break;
-      if (scale_where_anew(plan)) return std::move(mesh_);
+      if (scale_where_anew(plan) && is_certified()) return std::move(mesh_);
+      set_spacing(wanted);
     }
     scale_recipe();
     return std::move(mesh_);
@@ -107,7 +116,11 @@ class Rebuild {
   }
   std::array<double, 4> widths() const;
   void set_tolerance(double tolerance);
+  void set_meeting();
   void set_spacing(const SpacingField& field);
+  bool is_certified() const { return report_.n_obtuse == 0 && report_.n_short == 0; }
+  void follow(const RemeshPlan& plan, const SpacingField& wanted);
+  Mesh follow_wanted(RemeshPlan plan, const SpacingField& wanted);
   bool make(const RemeshPlan& plan);
   bool scale_where_anew(const RemeshPlan& plan);
   void scale_recipe();
@@ -135,7 +148,38 @@ std::array<double, 4> Rebuild::widths() const {
 
 void Rebuild::set_tolerance(double tolerance) {
   options_.region.tolerance = tolerance;
-  options_.region.blend = std::min(RegionOptions{}.blend, tolerance);
+  if (tolerance == 1.0) return set_meeting();
+  options_.region.passes = true;
+  options_.region.blend = std::min(kPassingStep, tolerance);
+  options_.region.rings = kPassingRings;
+  options_.full_share = kMostAnew;
+}
+
+/// The mesh is made anew until the wanted spacing meets that of the old one.
+void Rebuild::set_meeting() {
+  const RemeshOptions usual;
+  options_.full_share = usual.full_share;
+  options_.region.passes = usual.region.passes;
+  options_.region.rings = usual.region.rings;
+  options_.region.blend = std::min(usual.region.blend, options_.region.tolerance);
+}
+
+/// What is kept keeps its spacing, too, and what is made anew leads over to it.
+void Rebuild::follow(const RemeshPlan& plan, const SpacingField& wanted) {
+  if (plan.kind != RemeshKind::local || !options_.region.passes) return;
+  set_spacing(followed_spacing(context_.exec, *old_.grid, plan.region, old_.spacing, wanted));
+}
+
+/// Without a budget: where the mesh that is kept stands against the certificate less of it is.
+Mesh Rebuild::follow_wanted(RemeshPlan plan, const SpacingField& wanted) {
+  for (;;) {
+    follow(plan, wanted);
+    Mesh mesh = remesh(context_, input(), options_, plan, report_).mesh;
+    if (!options_.region.passes || is_certified()) return mesh;
+    set_spacing(wanted);
+    if (++options_.region.rings > kMostPassingRings) set_meeting();
+    plan = plan_remesh(context_, input(), options_);
+  }
 }
 
 void Rebuild::set_spacing(const SpacingField& field) {
@@ -214,6 +258,7 @@ RemeshPlan Rebuild::follow_recipe(double aim) {
 
 /// All that differs is made anew, for a spacing that the whole recipe is scaled to.
 void Rebuild::scale_recipe() {
+  set_meeting();
   Aim aim(cells_);
   for (int round = 0; round < kMeshRounds; ++round) {
     if (make(follow_recipe(aim.now()))) return;

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstring>
 
+#include "adapt/budget.hpp"
+#include "dual/build.hpp"
 #include "metrics/quality.hpp"
 #include "refine/refine.hpp"
 #include "support/sample_spacings.hpp"
@@ -46,6 +48,21 @@ std::vector<Scene> scenes() {
       {"across the pole", earth, disc(earth, 30.0, 84.0), disc(earth, 210.0, 84.0)},
       {"triaxial", triaxial, disc(triaxial, 80.0, 10.0), disc(triaxial, 80.0, 25.0)},
       {"flat", flat, disc(flat, 80.0, 10.0), disc(flat, 80.0, 25.0)}};
+}
+
+/// Waves that go on a little everywhere, and a disc that asks for less than half.
+Scene waves(bool is_flat) {
+  const Ellipsoid surface = is_flat ? Ellipsoid(Vec3(1.2, 1.0, 0.8) * 6371220.0, Vec3(0, 0, 0))
+                                    : Ellipsoid::sphere(6371220.0);
+  const auto field = [&](double phase, double depth) {
+    return sample_table(surface, [=](double lon, double lat, Index, Index) {
+      const double wave = std::cos(lat * kRadPerDeg) * std::sin(3.0 * lon * kRadPerDeg + phase);
+      const double away_deg = std::hypot(lat - 10.0, std::cos(lat * kRadPerDeg) * (lon - 40.0));
+      const double dip = depth * std::exp(-away_deg * away_deg / 300.0);
+      return 280e3 * (1.0 + 0.12 * wave) * (1.0 - dip);
+    });
+  };
+  return {"waves", surface, field(0.0, 0.0), field(0.6, 0.55)};
 }
 
 Mesh fresh(Context& context, const Ellipsoid& surface, const SpacingField& spacing) {
@@ -144,6 +161,43 @@ TEST_CASE("1, 2, 5 and 8 threads remesh to the same bits") {
       const Remeshed found = remeshed(run.context, scene, before, report);
       CHECK(digest(found.mesh) == digest(expected.mesh));
       CHECK(found.new_id == expected.new_id);
+    }
+  }
+}
+
+TEST_CASE("where spacings differ everywhere a remesh is local, as good and within tau") {
+  for (const bool is_flat : {false, true}) {
+    CAPTURE(is_flat);
+    const Scene scene = waves(is_flat);
+    TestRun run(2);
+    const Mesh before = fresh(run.context, scene.surface, scene.before);
+    const Grid grid = build_grid(run.context, scene.surface, LatitudeKind::geodetic, before);
+    for (const double tau : {1.2, 1.3, 1.5, 1.8}) {
+      CAPTURE(tau);
+      RemeshOptions options;
+      options.region.tolerance = tau;
+      options.region.passes = true;
+      options.region.rings = 2;
+      const RemeshPlan plan =
+          plan_remesh(run.context, {scene.surface, scene.after, before, {}}, options);
+      const SpacingField followed =
+          followed_spacing(run.exec, grid, plan.region, scene.before, scene.after);
+      RemeshReport report;
+      const Remeshed after =
+          remesh(run.context, {scene.surface, followed, before, {}}, options, plan, report);
+      CHECK(report.kind == RemeshKind::local);
+      CHECK(report.n_kept > before.n_vertices() / 2);
+      CHECK(summary(validate(after.mesh, scene.surface)) == "");
+      check_kept(before, after, report);
+      const Quality quality = measure_quality(run.context, scene.surface, followed, after.mesh);
+      CHECK(quality.n_obtuse == 0);
+      CHECK(quality.relative_edge_min.value >= 0.65);
+      double most = 1.0;
+      for (const Vertex& v : after.mesh.vertices) {
+        const double ratio = v.spacing / scene.after.at(v.x, v.y, v.z);
+        most = std::max({most, ratio, 1.0 / ratio});
+      }
+      CHECK(most < 1.05 * tau);
     }
   }
 }
