@@ -10,7 +10,7 @@
 namespace delos {
 namespace {
 
-constexpr double kTurn_deg = 360.0;
+constexpr double kWholeTurn_deg = 360.0;
 constexpr double kPole_deg = 90.0;
 
 bool is_strictly_monotone(const std::vector<double>& axis) {
@@ -33,7 +33,7 @@ void check_axes(const LatLonAxes& axes) {
   check_axis(axes.lon_deg, "lon_deg");
   check_axis(axes.lat_deg, "lat_deg");
   const double turn_deg = std::abs(axes.lon_deg.back() - axes.lon_deg.front());
-  DELOS_CHECK(turn_deg < kTurn_deg, ErrorKind::input, "lon_deg spans ", turn_deg,
+  DELOS_CHECK(turn_deg < kWholeTurn_deg, ErrorKind::input, "lon_deg spans ", turn_deg,
               " degrees: must be less than one turn, the first meridian not repeated");
   for (const double lat_deg : {axes.lat_deg.front(), axes.lat_deg.back()}) {
     DELOS_CHECK(std::abs(lat_deg) <= kPole_deg, ErrorKind::input, "lat_deg holds ", lat_deg,
