@@ -13,6 +13,9 @@ function(delos_target_options target)
     $<$<OR:$<CONFIG:Debug>,$<BOOL:${DELOS_ASSERTS}>>:DELOS_ENABLE_ASSERTS>)
   # GCC 12 sees overlaps in string concatenations that are none (GCC bug 105651).
   target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
+  if(CMAKE_UNITY_BUILD)  # GCC takes a .cpp that is included for a header
+    target_compile_options(${target} PRIVATE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+  endif()
   if(DELOS_SANITIZE)
     target_compile_options(${target} PRIVATE -fsanitize=${DELOS_SANITIZE} -fno-sanitize-recover=all
       -fno-omit-frame-pointer)
