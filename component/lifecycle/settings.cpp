@@ -252,6 +252,48 @@ std::string grid_text(ConfigNode effective) {
   return to_yaml(effective);
 }
 
+/// What only the frontal generator knows: its sizing, constraints, relaxation and remesh.
+void read_frontal_keys(MapReader& root, Settings& out) {
+  for (const char* const key : {"subdivisions", "spacing"}) {
+    if (root.has(key)) {
+      root.fail(key, "belongs to the generators icosahedral and cubed_sphere. For a uniform ",
+                "grid write sizing: {sources: [{type: constant, spacing: 60 km}]}.");
+    }
+  }
+  out.sizing = read_sizing(root, out.surface.scale_m(), out.latitude);
+  if (root.has("constraints")) {
+    out.constraints = read_constraints(root.map("constraints", {"files", "shapes"}));
+  }
+  out.refine = read_refine(root.map("refine", {"radius_edge", "size_ratio", "tile_vertices"}));
+  out.relax = read_relax(root.map("relax", {"spring_rounds", "centroidal_rounds", "polish_rounds",
+                                            "target_quality", "repair"}));
+  out.remesh = read_remesh(root, out.surface.scale_m());
+  const bool has_fixed =
+      out.remesh && !(out.remesh->fixed.empty() && out.remesh->fixed_files.empty());
+  if (has_fixed && !out.constraints.empty()) {
+    root.fail("remesh", "with constraints a remesh makes everything anew, so it can't leave ",
+              "regions as they are. Remove remesh.fixed or constraints.");
+  }
+  if (out.remesh && out.sizing.recipe.combine.rule == CombineRule::blend) {
+    root.fail("remesh", "its sources can't be blended: set sizing.combine to min or max.");
+  }
+}
+
+/// The part of the sphere that the grid is cut to: an ocean, or a region.
+void read_cut(MapReader& root, Settings& out) {
+  out.domain = read_domain(root);
+  if (out.domain && out.remesh) {
+    root.fail("domain", "a culled grid can't be made anew while a model runs: remove `domain` or ",
+              "`remesh`.");
+  }
+  out.region = read_region(root, out.surface.scale_m());
+  if (out.region && out.remesh) {
+    root.fail("region",
+              "a regional grid can't be made anew while a model runs: remove `region` or ",
+              "`remesh`.");
+  }
+}
+
 }  // namespace
 
 Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
@@ -269,44 +311,12 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   out.generator =
       kGenerators[root.choice("generator", {"frontal", "icosahedral", "cubed_sphere"}, "frontal")];
   if (out.generator == Generator::frontal) {
-    for (const char* const key : {"subdivisions", "spacing"}) {
-      if (root.has(key)) {
-        root.fail(key, "belongs to the generators icosahedral and cubed_sphere. For a uniform ",
-                  "grid write sizing: {sources: [{type: constant, spacing: 60 km}]}.");
-      }
-    }
-    out.sizing = read_sizing(root, out.surface.scale_m(), out.latitude);
-    if (root.has("constraints")) {
-      out.constraints = read_constraints(root.map("constraints", {"files", "shapes"}));
-    }
-    out.refine = read_refine(root.map("refine", {"radius_edge", "size_ratio", "tile_vertices"}));
-    out.relax = read_relax(root.map("relax", {"spring_rounds", "centroidal_rounds", "polish_rounds",
-                                              "target_quality", "repair"}));
-    out.remesh = read_remesh(root, out.surface.scale_m());
-    const bool has_fixed =
-        out.remesh && !(out.remesh->fixed.empty() && out.remesh->fixed_files.empty());
-    if (has_fixed && !out.constraints.empty()) {
-      root.fail("remesh", "with constraints a remesh makes everything anew, so it can't leave ",
-                "regions as they are. Remove remesh.fixed or constraints.");
-    }
-    if (out.remesh && out.sizing.recipe.combine.rule == CombineRule::blend) {
-      root.fail("remesh", "its sources can't be blended: set sizing.combine to min or max.");
-    }
+    read_frontal_keys(root, out);
   } else {
     read_baseline(root, out.generator == Generator::icosahedral ? "icosahedral" : "cubed_sphere",
                   out);
   }
-  out.domain = read_domain(root);
-  if (out.domain && out.remesh) {
-    root.fail("domain", "a culled grid can't be made anew while a model runs: remove `domain` or ",
-              "`remesh`.");
-  }
-  out.region = read_region(root, out.surface.scale_m());
-  if (out.region && out.remesh) {
-    root.fail("region",
-              "a regional grid can't be made anew while a model runs: remove `region` or ",
-              "`remesh`.");
-  }
+  read_cut(root, out);
   if (out.domain && out.domain->needs_bathymetry()) add_bathymetry(root, out.sizing);
   out.layers = read_layers(root);
   if (out.layers) add_bathymetry(root, out.sizing);

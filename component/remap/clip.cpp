@@ -127,7 +127,7 @@ bool Clipper::cut(const Vec3& line, double on_side, Index side) {
     const Corner &p = now[k], &q = now[l];
     const double from = distance[k], to = distance[l];
     const bool leaves = to < -on_side;
-    *kept = {p.x, p.y, leaves & (from <= on_side) ? side : p.side};
+    *kept = {p.x, p.y, (leaves & (from <= on_side)) ? side : p.side};
     kept += static_cast<int>(from >= -on_side);
     if (((from > on_side) & leaves) | ((from < -on_side) & (to > on_side))) {
       const double t = from / (from - to);

@@ -313,9 +313,10 @@ void TileSearch::answer_row(Index row, const TableTile& tile, std::size_t begin)
     for (std::size_t i = 0; i < n; ++i) {
       // Added up as squaredNorm() of a Vec3 does.
       const double c = square(x[i] - px) + (square(y[i] - py) + square(z[i] - pz));
-      const bool is_better = (c < chord2[i]) | ((c == chord2[i]) & (point < id[i]));
-      chord2[i] = is_better ? c : chord2[i];
-      id[i] = is_better ? point : id[i];
+      const double best = chord2[i], best_id = id[i];
+      const bool is_better = (c < best) | ((c == best) & (point < best_id));
+      chord2[i] = is_better ? c : best;
+      id[i] = is_better ? point : best_id;
     }
   }
   std::array<NearestPoint::Hit, kLanes> hits;
