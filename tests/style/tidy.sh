@@ -1,9 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Runs clang-tidy over the library's sources in parallel.
-#   tidy.sh [-p BUILD_DIR] [FILE...]     all .cpp files of component/, interfaces/ and examples/
+#   tidy.sh [-p BUILD_DIR] [FILE...]     all that BUILD_DIR compiles of component/, interfaces/ and examples/
 #   tidy.sh [-p BUILD_DIR] --changed REF only those that differ from REF (or are new)
-# BUILD_DIR holds compile_commands.json (default build/dev).
+# BUILD_DIR holds compile_commands.json (default build/dev). Of a build in large pieces (a unity build, as the
+# presets asan and release are) whole pieces are checked, five times faster; files by name need a build of single files.
 set -euo pipefail
 cd "$(dirname "$0")/../.."
 build=build/dev
@@ -16,31 +17,51 @@ while (($#)); do
     *) files+=("$1"); shift ;;
   esac
 done
-if [[ ! -f $build/compile_commands.json ]]; then
-  echo "tidy: no $build/compile_commands.json; configure first: cmake --preset dev" >&2
+commands=$build/compile_commands.json
+if [[ ! -f $commands ]]; then
+  echo "tidy: no $commands; configure first: cmake --preset dev" >&2
   exit 2
 fi
+sources='(component|interfaces|examples)/.*\.cpp'
+compiled() { sed -nE 's/^ *"file": "(.*)",?$/\1/p' "$commands" | sort -u; }
+pieces() { compiled | grep -E '/Unity/[^/]*$' || true; }
+
+# The files to check, and how clang-tidy gets at each: by itself, or in its piece.
 if [[ -n $changed ]]; then
   mapfile -t files < <({ git diff --name-only --diff-filter=d "$changed"; git ls-files --others --exclude-standard; } |
-    grep -E '^(component|interfaces|examples)/.*\.cpp$' | sort -u || true)
-elif ((${#files[@]} == 0)); then
-  mapfile -t files < <(git ls-files --cached --others --exclude-standard 'component/*.cpp' 'interfaces/*.cpp' 'examples/*.cpp')
+    grep -E "^$sources\$" | sort -u || true)
 fi
-# A file that this build does not compile has no command to check it by.
 wanted=()
-for file in "${files[@]}"; do
-  if grep -qF "/$file\"" "$build/compile_commands.json"; then wanted+=("$file"); fi
-done
+checked=0
+if ((${#files[@]})); then
+  # A file that this build does not compile has no command to check it by.
+  for file in "${files[@]}"; do
+    if compiled | grep -qxF "$PWD/$file"; then wanted+=("$file"); fi
+  done
+  checked=${#wanted[@]}
+elif [[ -z $changed ]]; then
+  mapfile -t in_pieces < <(pieces)
+  mapfile -t wanted < <(compiled | grep -E "^$PWD/$sources\$" || true)
+  checked=${#wanted[@]}
+  for piece in "${in_pieces[@]}"; do
+    n=$(grep -cE "^#include \"$PWD/$sources\"" "$piece" || true)
+    if ((n > 0)); then
+      wanted+=("$piece")
+      checked=$((checked + n))
+    fi
+  done
+fi
 if ((${#wanted[@]} == 0)); then
   echo "tidy: nothing to check"
   exit 0
 fi
 linter=$(command -v clang-tidy-14 || command -v clang-tidy)
-# The largest first, so that no long one is left for the end. GCC's own warning options in the commands
-# mean nothing to the linter, and are no finding.
-if stat -c '%s %n' "${wanted[@]}" | sort -rn | cut -d' ' -f2- |
-  xargs -P "$(nproc)" -n 1 "$linter" -p "$build" --quiet --extra-arg=-Wno-unknown-warning-option 2> >(grep -v 'warnings generated' >&2 || true); then
-  echo "tidy: ${#wanted[@]} files clean"
+# The dearest first, so that no long one is left for the end: pieces, then the largest files. GCC's own
+# warning options in the commands mean nothing to the linter, and are no finding.
+if stat -c '%s %n' "${wanted[@]}" | sed -E 's,^[0-9]+ (.*/Unity/),9999999 \1,' | sort -rn | cut -d' ' -f2- |
+  xargs -P "$(nproc)" -n 1 "$linter" -p "$build" --config-file=.clang-tidy --quiet \
+    --extra-arg=-Wno-unknown-warning-option 2> >(grep -v 'warnings generated' >&2 || true); then
+  echo "tidy: $checked files clean"
 else
   echo "tidy: findings above must be fixed" >&2
   exit 1
