@@ -6,6 +6,7 @@
 #include "handle.hpp"
 
 using delos::c::call;
+using delos::c::fill;
 using delos::c::need;
 using delos::c::need_handle;
 
@@ -124,6 +125,14 @@ int delos_grid_quality(const delos_grid* grid, delos_quality* quality) {
                 .degree_6_fraction = own.degree_6_fraction};
   });
 }
+
+#define DELOS_LEVELS(name)                                                        \
+  int delos_grid_##name(const delos_grid* grid, double* values, int64_t size) {   \
+    return call(grid, __func__, [&] { fill(grid->grid->name(), values, size); }); \
+  }
+DELOS_LEVELS(layer_thickness_m)
+DELOS_LEVELS(interface_height_m)
+#undef DELOS_LEVELS
 
 int delos_grid_certificate(const delos_grid* grid, delos_certificate* certificate) {
   return call(grid, __func__, [&] {

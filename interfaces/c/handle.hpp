@@ -89,6 +89,17 @@ inline void need(const void* argument, const char* name) {
   }
 }
 
+/// Copies into the host's array. Throws Refusal unless it has the room.
+inline void fill(const std::vector<double>& from, double* values, int64_t size) {
+  if (size != static_cast<int64_t>(from.size())) {
+    throw Refusal{DELOS_ERROR_ARGUMENT,
+                  "size = " + std::to_string(size) + ": must be " + std::to_string(from.size())};
+  }
+  if (from.empty()) return;
+  need(values, "values");
+  std::copy(from.begin(), from.end(), values);
+}
+
 /// Runs body(); whatever it throws becomes a status, and a text on `handle` that begins with the
 /// function's name where the caller is at fault.
 template <class Body>

@@ -10,6 +10,7 @@
 #include "lifecycle/outputs.hpp"
 #include "metrics/certificate.hpp"
 #include "translate.hpp"
+#include "vertical.hpp"
 
 namespace delos::api {
 namespace {
@@ -163,6 +164,35 @@ std::span<const double> Grid::edge_position() const {
 }
 std::span<const double> Grid::vertex_position() const {
   return flat(impl_->product.grid->vertex_position);
+}
+
+// Empty where the grid has no layers, or those of the other kind.
+#define DELOS_LEVELS(type, name, kind, expression) \
+  std::span<const type> Grid::name() const {       \
+    const auto& layers = impl_->product.layers;    \
+    if (!layers || !layers->kind) return {};       \
+    return flat<type>(layers->kind->expression);   \
+  }
+DELOS_LEVELS(std::int32_t, max_level_cell, ocean, n_layers)
+DELOS_LEVELS(double, bottom_depth_m, ocean, bottom_depth_m)
+DELOS_LEVELS(double, ground_height_m, terrain, ground_m)
+#undef DELOS_LEVELS
+
+std::span<const double> Grid::ground_influence() const {
+  const auto& layers = impl_->product.layers;
+  if (!layers || !layers->terrain) return {};
+  return layers->terrain->influence;
+}
+std::span<const double> Grid::level_interface_m() const {
+  const auto& layers = impl_->product.layers;
+  if (!layers) return {};
+  return layers->ocean ? layers->ocean->levels.interface_m : layers->terrain->zeta_m;
+}
+std::vector<double> Grid::layer_thickness_m() const {
+  return translated([&] { return api::layer_thickness_m(vertical_of(*this)); });
+}
+std::vector<double> Grid::interface_height_m() const {
+  return translated([&] { return api::interface_height_m(vertical_of(*this)); });
 }
 
 void Grid::write_mpas(const std::string& path) const {

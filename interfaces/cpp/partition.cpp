@@ -11,6 +11,7 @@
 #include "partition/partition.hpp"
 #include "partition/subgrid.hpp"
 #include "translate.hpp"
+#include "vertical.hpp"
 
 namespace delos::api {
 namespace {
@@ -23,7 +24,7 @@ static_assert(static_cast<int>(PartitionMethod::curve) ==
               static_cast<int>(delos::PartitionMethod::curve));
 
 // The first number of a layout; the last digits change with the list of arrays.
-constexpr std::int64_t kLayoutMagic = 0x64656c6f734c4702;
+constexpr std::int64_t kLayoutMagic = 0x64656c6f734c4703;
 
 template <class Rows>
 std::span<const std::byte> bytes_of(const Rows& rows) {
@@ -47,6 +48,28 @@ struct Surface {
 };
 
 Surface surface_of(const Grid& grid) { return {grid.radii_m(), grid.centre_m(), grid.scale_m()}; }
+
+/// The layers of a part's cells, and what all cells share.
+struct LocalLayers {
+  std::vector<double> level_interface_m;
+  std::vector<std::int32_t> max_level_cell;
+  std::vector<double> bottom_depth_m, ground_height_m, ground_influence;
+};
+
+LocalLayers layers_of(const VerticalView& whole, std::span<const Index> cells) {
+  const auto pick = [&](const auto& values) {
+    std::vector<typename std::decay_t<decltype(values)>::value_type> out;
+    if (values.empty()) return out;
+    out.reserve(cells.size());
+    for (const Index cell : cells) out.push_back(values[at(cell)]);
+    return out;
+  };
+  const auto copy = [](std::span<const double> values) {
+    return std::vector<double>(values.begin(), values.end());
+  };
+  return {copy(whole.level_interface_m), pick(whole.max_level_cell), pick(whole.bottom_depth_m),
+          pick(whole.ground_height_m), copy(whole.ground_influence)};
+}
 
 /// visit(number) for the numbers of a subgrid that are not in arrays, always in the same order.
 template <class AnySubgrid, class AnySurface, class Visit>
@@ -78,6 +101,17 @@ void unpack(std::int64_t from, Integer& to) {
 struct LocalGrid::Impl {
   Subgrid subgrid;
   Surface surface;
+  LocalLayers layers;
+  /// visit(array) for all of them, always in the same order: what crosses to another process.
+  template <class AnyImpl, class Visit>
+  static void for_each_array(AnyImpl& impl, Visit&& visit) {
+    delos::for_each_array(impl.subgrid, visit);
+    visit(impl.layers.level_interface_m);
+    visit(impl.layers.max_level_cell);
+    visit(impl.layers.bottom_depth_m);
+    visit(impl.layers.ground_height_m);
+    visit(impl.layers.ground_influence);
+  }
   const LocalEntities& entities(Location location) const {
     DELOS_CHECK(
         location == Location::cell || location == Location::edge || location == Location::vertex,
@@ -149,19 +183,35 @@ DELOS_FLAT(double, vertex_distance_m)
 DELOS_FLAT(double, edge_angle_rad)
 #undef DELOS_FLAT
 
+#define DELOS_LEVELS(type, name) \
+  std::span<const type> LocalGrid::name() const { return impl_->layers.name; }
+DELOS_LEVELS(double, level_interface_m)
+DELOS_LEVELS(std::int32_t, max_level_cell)
+DELOS_LEVELS(double, bottom_depth_m)
+DELOS_LEVELS(double, ground_height_m)
+DELOS_LEVELS(double, ground_influence)
+#undef DELOS_LEVELS
+
+std::vector<double> LocalGrid::layer_thickness_m() const {
+  return translated([&] { return api::layer_thickness_m(vertical_of(*this)); });
+}
+std::vector<double> LocalGrid::interface_height_m() const {
+  return translated([&] { return api::interface_height_m(vertical_of(*this)); });
+}
+
 std::array<std::int64_t, LocalGrid::kLayoutSize> LocalGrid::layout() const {
   std::array<std::int64_t, kLayoutSize> out{};
   std::size_t n = 0;
   out[n++] = kLayoutMagic;
   for_each_number(impl_->subgrid, impl_->surface, [&](auto value) { out.at(n++) = packed(value); });
-  for_each_array(impl_->subgrid,
-                 [&](const auto& array) { out.at(n++) = static_cast<std::int64_t>(array.size()); });
+  Impl::for_each_array(
+      *impl_, [&](const auto& array) { out.at(n++) = static_cast<std::int64_t>(array.size()); });
   return out;
 }
 
 std::vector<std::span<const std::byte>> LocalGrid::buffers() const {
   std::vector<std::span<const std::byte>> out;
-  for_each_array(impl_->subgrid, [&](const auto& array) { out.push_back(bytes_of(array)); });
+  Impl::for_each_array(*impl_, [&](const auto& array) { out.push_back(bytes_of(array)); });
   return out;
 }
 
@@ -175,7 +225,7 @@ LocalGrid LocalGrid::with_layout(const std::array<std::int64_t, kLayoutSize>& la
     std::size_t n = 1;
     for_each_number(impl->subgrid, impl->surface,
                     [&](auto& value) { unpack(layout.at(n++), value); });
-    for_each_array(impl->subgrid, [&](auto& array) {
+    Impl::for_each_array(*impl, [&](auto& array) {
       array.resize(static_cast<std::size_t>(layout.at(n++)));
       buffers.push_back(std::as_writable_bytes(std::span(array)));
     });
@@ -215,6 +265,7 @@ LocalGrid Partition::part(int number) {
     auto out = std::make_shared<LocalGrid::Impl>();
     out->subgrid = impl_->cutter.cut(number);
     out->surface = surface_of(impl_->grid);
+    out->layers = layers_of(vertical_of(impl_->grid), out->subgrid.cells.global_id);
     return LocalGrid(std::move(out));
   });
 }

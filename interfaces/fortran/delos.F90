@@ -10,8 +10,8 @@
 !   if (ierr /= DELOS_SUCCESS) call model_stop(grid%message())
 !   area_m2 => grid%cell_area_m2()
 !
-! What each type has stands in delos_configs.F90, delos_grids.F90 and delos_arrays.F90. A coupled
-! model takes delos_component (delos_components.F90), delos_clock (delos_clocks.F90), delos_state
+! What each type has stands in delos_configs.F90, delos_grids.F90, delos_arrays.F90 and
+! delos_levels.F90. A coupled model takes delos_component (delos_components.F90), delos_clock (delos_clocks.F90), delos_state
 ! and delos_field (delos_states.F90).
 ! delos_transfer carries its fields to a new grid: delos_transfers.F90.
 !

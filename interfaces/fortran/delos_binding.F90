@@ -60,6 +60,14 @@ module delos_binding
       integer(c_int) :: status
     end function
 
+    function level_filler(grid, values, n) bind(c) result(status)
+      import :: c_double, c_int, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int64_t), value :: n
+      integer(c_int) :: status
+    end function
+
     function count_getter(grid, n) bind(c) result(status)
       import :: c_ptr, c_int, c_int64_t
       type(c_ptr), value :: grid
@@ -237,6 +245,13 @@ module delos_binding
   procedure(array_getter), bind(c, name="delos_grid_cell_distance_m") :: c_cell_distance_m
   procedure(array_getter), bind(c, name="delos_grid_vertex_distance_m") :: c_vertex_distance_m
   procedure(array_getter), bind(c, name="delos_grid_edge_angle_rad") :: c_edge_angle_rad
+  procedure(array_getter), bind(c, name="delos_grid_level_interface_m") :: c_level_interface_m
+  procedure(array_getter), bind(c, name="delos_grid_max_level_cell") :: c_max_level_cell
+  procedure(array_getter), bind(c, name="delos_grid_bottom_depth_m") :: c_bottom_depth_m
+  procedure(array_getter), bind(c, name="delos_grid_ground_height_m") :: c_ground_height_m
+  procedure(array_getter), bind(c, name="delos_grid_ground_influence") :: c_ground_influence
+  procedure(level_filler), bind(c, name="delos_grid_layer_thickness_m") :: c_layer_thickness_m
+  procedure(level_filler), bind(c, name="delos_grid_interface_height_m") :: c_interface_height_m
   procedure(path_call), bind(c, name="delos_grid_write_mpas") :: c_write_mpas
   procedure(path_call), bind(c, name="delos_grid_write_ugrid_cells") :: c_write_ugrid_cells
   procedure(path_call), bind(c, name="delos_grid_write_ugrid_triangles") :: c_write_ugrid_triangles

@@ -3,7 +3,7 @@
 module delos_grids
   use, intrinsic :: iso_c_binding, only: c_funloc, c_funptr, c_int, c_null_char, c_null_funptr, &
     c_null_ptr
-  use delos_arrays, only: delos_grid_arrays
+  use delos_levels, only: delos_grid_levels
   use delos_binding
   use delos_configs, only: delos_config
   use delos_objects
@@ -11,8 +11,9 @@ module delos_grids
   private
   public :: delos_grid, delos_version
 
-  ! A finished grid: its arrays are those of delos_grid_arrays.
-  type, extends(delos_grid_arrays) :: delos_grid
+  ! A finished grid: its arrays are those of delos_grid_arrays and
+  ! delos_grid_levels.
+  type, extends(delos_grid_levels) :: delos_grid
     private
     type(c_funptr) :: on_progress = c_null_funptr
   contains

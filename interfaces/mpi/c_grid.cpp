@@ -178,6 +178,16 @@ DELOS_LIST(receive_ids, int32_t)
 #include "arrays.inc"
 #undef DELOS_ARRAY
 
+#define DELOS_LEVELS(name)                                                        \
+  int delos_mpi_grid_##name(delos_mpi_grid* grid, double* values, int64_t size) { \
+    return call(grid, __func__, [&](const DistributedGrid& own) {                 \
+      delos::c::fill(own.local().name(), values, size);                           \
+    });                                                                           \
+  }
+DELOS_LEVELS(layer_thickness_m)
+DELOS_LEVELS(interface_height_m)
+#undef DELOS_LEVELS
+
 int delos_mpi_exchange(delos_mpi_grid* grid, double* values, int64_t size, int location,
                        int n_components) {
   return exchange(grid, field(values, size), location, n_components);

@@ -35,6 +35,14 @@ module delos_mpi_binding
       integer(c_int) :: status
     end function
 
+    function level_filler(grid, values, n) bind(c) result(status)
+      import :: c_double, c_int, c_int64_t, c_ptr
+      type(c_ptr), value :: grid
+      real(c_double), intent(inout) :: values(*)
+      integer(c_int64_t), value :: n
+      integer(c_int) :: status
+    end function
+
     function count_getter(grid, location, n) bind(c) result(status)
       import :: c_ptr, c_int, c_int64_t
       type(c_ptr), value :: grid
@@ -144,6 +152,13 @@ module delos_mpi_binding
   procedure(array_getter), bind(c, name="delos_mpi_grid_cell_distance_m") :: c_cell_distance_m
   procedure(array_getter), bind(c, name="delos_mpi_grid_vertex_distance_m") :: c_vertex_distance_m
   procedure(array_getter), bind(c, name="delos_mpi_grid_edge_angle_rad") :: c_edge_angle_rad
+  procedure(array_getter), bind(c, name="delos_mpi_grid_level_interface_m") :: c_level_interface_m
+  procedure(array_getter), bind(c, name="delos_mpi_grid_max_level_cell") :: c_max_level_cell
+  procedure(array_getter), bind(c, name="delos_mpi_grid_bottom_depth_m") :: c_bottom_depth_m
+  procedure(array_getter), bind(c, name="delos_mpi_grid_ground_height_m") :: c_ground_height_m
+  procedure(array_getter), bind(c, name="delos_mpi_grid_ground_influence") :: c_ground_influence
+  procedure(level_filler), bind(c, name="delos_mpi_grid_layer_thickness_m") :: c_layer_thickness_m
+  procedure(level_filler), bind(c, name="delos_mpi_grid_interface_height_m") :: c_interface_height_m
   procedure(array_getter), bind(c, name="delos_mpi_grid_cell_position") :: c_cell_position
   procedure(array_getter), bind(c, name="delos_mpi_grid_edge_position") :: c_edge_position
   procedure(array_getter), bind(c, name="delos_mpi_grid_vertex_position") :: c_vertex_position

@@ -4,13 +4,13 @@ module delos_mpi_grids
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int64_t, c_null_ptr
   use delos_binding, only: DELOS_SUCCESS
   use delos_mpi_binding
-  use delos_mpi_parts, only: delos_mpi_part
+  use delos_mpi_levels, only: delos_mpi_levels_of_part
   use delos_objects, only: from_c, report_status, to_c
   implicit none
   private
   public :: delos_mpi_grid
 
-  type, extends(delos_mpi_part) :: delos_mpi_grid
+  type, extends(delos_mpi_levels_of_part) :: delos_mpi_grid
   contains
     procedure :: generate
     procedure :: generate_from_text

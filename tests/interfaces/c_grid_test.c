@@ -230,6 +230,40 @@ static void test_callbacks(delos_context* context) {
 }
 
 /* With a word: prints the digest, for the comparison with other languages. */
+static void test_layers(delos_context* context) {
+  static const char yaml[] =
+      "generator: icosahedral\nsubdivisions: 4\ndata_path: [/none]\n"
+      "layers: {kind: z_level, levels: {shape: uniform, n: 5, depth: 5000 m}}\n";
+  enum { n_levels = 5, n_cells = 162 };
+  static double thickness_m[n_levels * n_cells];
+  delos_config* config = NULL;
+  delos_grid* grid = NULL;
+  const double *interface_m = NULL, *bottom_m = NULL, *ground_m = NULL;
+  const int32_t* deepest = NULL;
+  int64_t size = 0;
+  CHECK(delos_config_from_text(context, yaml, NULL, NULL, &config) == DELOS_SUCCESS);
+  CHECK(delos_generate(context, config, &grid) == DELOS_SUCCESS);
+  CHECK(delos_grid_level_interface_m(grid, &interface_m, &size) == DELOS_SUCCESS);
+  CHECK(size == n_levels + 1 && interface_m[0] == 0.0);
+  CHECK(delos_grid_bottom_depth_m(grid, &bottom_m, &size) == DELOS_SUCCESS && size == n_cells);
+  CHECK(delos_grid_max_level_cell(grid, &deepest, &size) == DELOS_SUCCESS && size == n_cells);
+  CHECK(delos_grid_ground_height_m(grid, &ground_m, &size) == DELOS_SUCCESS && size == 0);
+  CHECK(delos_grid_layer_thickness_m(grid, thickness_m, n_levels * n_cells) == DELOS_SUCCESS);
+  for (int i = 0; i < n_cells; ++i) {
+    double depth_m = 0.0;
+    for (int k = 0; k < n_levels; ++k) {
+      depth_m += thickness_m[n_levels * i + k];
+      CHECK((thickness_m[n_levels * i + k] > 0.0) == (k < deepest[i]));
+    }
+    CHECK(fabs(depth_m - bottom_m[i]) < 1e-9);
+  }
+  CHECK(delos_grid_interface_height_m(grid, thickness_m, 3) == DELOS_ERROR_ARGUMENT);
+  CHECK(strstr(delos_last_error(grid), "size = 3: must be 972") != NULL);
+  CHECK(delos_grid_layer_thickness_m(grid, NULL, n_levels * n_cells) == DELOS_ERROR_ARGUMENT);
+  CHECK(delos_grid_destroy(grid) == DELOS_SUCCESS);
+  CHECK(delos_config_destroy(config) == DELOS_SUCCESS);
+}
+
 int main(int argc, char** argv) {
   delos_context* context = NULL;
   delos_grid* grid = NULL;
@@ -254,6 +288,7 @@ int main(int argc, char** argv) {
     test_config(context);
     test_misuse(context, grid);
     test_callbacks(context);
+    test_layers(context);
   }
   CHECK(delos_context_destroy(context) == DELOS_SUCCESS);
   return n_failed == 0 ? 0 : 1;

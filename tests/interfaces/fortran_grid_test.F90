@@ -143,6 +143,34 @@ contains
     call expect(.not. watched%is_made(), "and there is no grid")
     call watched%destroy()
   end subroutine
+  subroutine test_layers(plain)
+    type(delos_grid), intent(in) :: plain
+    type(delos_config) :: config
+    type(delos_grid) :: grid
+    real(c_double), pointer :: bottom_m(:)
+    integer(c_int32_t), pointer :: deepest(:)
+    real(c_double), allocatable :: thickness_m(:, :), height_m(:, :)
+    integer :: ierr
+    bottom_m => plain%bottom_depth_m(ierr)
+    call plain%layer_thickness_m(thickness_m)
+    call expect(ierr == DELOS_SUCCESS .and. .not. associated(bottom_m) .and. plain%n_levels() == 0 &
+                .and. size(thickness_m) == 0, "a grid without layers has none")
+    call config%from_text("generator: icosahedral"//new_line("a")//"subdivisions: 4"//new_line("a")// &
+                          "data_path: [/none]"//new_line("a")// &
+                          "layers: {kind: z_level, levels: {shape: uniform, n: 5, depth: 5000 m}}")
+    call grid%generate(config, ierr=ierr)
+    call expect(ierr == DELOS_SUCCESS, "a grid with layers is made")
+    call expect(grid%n_levels() == 5, "five levels")
+    bottom_m => grid%bottom_depth_m()
+    deepest => grid%max_level_cell()
+    call grid%layer_thickness_m(thickness_m, ierr)
+    call expect(ierr == DELOS_SUCCESS .and. all(shape(thickness_m) == [5, 162]), "thickness of layers")
+    call expect(all(abs(sum(thickness_m, 1) - bottom_m) < 1d-9), "layers lie on the bottom")
+    call expect(all(count(thickness_m > 0, 1) == deepest), "layers down to the deepest")
+    call grid%interface_height_m(height_m, ierr)
+    call expect(all(abs(height_m(6, :) + bottom_m) < 1d-9), "the last interface is the bottom")
+    call expect(.not. associated(grid%ground_height_m()), "an ocean has no ground")
+  end subroutine
 end module fortran_grid_test
 
 program main
@@ -159,6 +187,7 @@ program main
     print "(a)", grid%digest()
   else
     call test_arrays(grid)
+    call test_layers(grid)
     call test_connectivity(grid)
     call test_numbers(grid)
     call test_errors(grid)

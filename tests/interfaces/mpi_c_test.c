@@ -8,6 +8,9 @@
 
 static const char* const kSmall =
     "sizing: {sources: [{type: constant, spacing: 600 km}]}\nrefine: {tile_vertices: 500}\n";
+static const char* const kOcean =
+    "generator: icosahedral\nsubdivisions: 4\ndata_path: [/none]\n"
+    "layers: {kind: z_level, levels: {shape: uniform, n: 5, depth: 5000 m}}\n";
 static int rank, n_ranks, n_failed = 0;
 
 #define CHECK(condition)                                                             \
@@ -76,6 +79,30 @@ static void check_part(delos_mpi_grid* grid) {
   free(whole);
 }
 
+static void check_layers(delos_mpi_grid* grid) {
+  const double *interface_m = NULL, *bottom_m = NULL;
+  const int32_t* deepest = NULL;
+  int64_t n_local = 0, size = 0;
+  OK(delos_mpi_grid_n_local(grid, DELOS_MPI_CELL, &n_local));
+  OK(delos_mpi_grid_level_interface_m(grid, &interface_m, &size));
+  CHECK(size == 6 && interface_m[0] == 0.0);
+  OK(delos_mpi_grid_bottom_depth_m(grid, &bottom_m, &size));
+  CHECK(size == n_local);
+  OK(delos_mpi_grid_max_level_cell(grid, &deepest, &size));
+  double* thickness_m = malloc((size_t)(5 * n_local) * sizeof *thickness_m);
+  OK(delos_mpi_grid_layer_thickness_m(grid, thickness_m, 5 * n_local));
+  for (int64_t i = 0; i < n_local; ++i) {
+    double depth_m = 0.0;
+    for (int64_t k = 0; k < 5; ++k) {
+      depth_m += thickness_m[5 * i + k];
+      CHECK((thickness_m[5 * i + k] > 0.0) == (k < deepest[i]));
+    }
+    CHECK(fabs(depth_m - bottom_m[i]) < 1e-9);
+  }
+  CHECK(delos_mpi_grid_interface_height_m(grid, thickness_m, 5 * n_local) == DELOS_ERROR_ARGUMENT);
+  free(thickness_m);
+}
+
 /* `made` is where the call that gave `status` left its handle. */
 static void check_failure(int status, delos_mpi_grid** made, int expected, const char* says) {
   delos_mpi_grid* const grid = *made;
@@ -96,6 +123,10 @@ int main(int argc, char** argv) {
 
   OK(delos_mpi_generate_text(MPI_COMM_WORLD, rank == 0 ? kSmall : NULL, NULL, NULL, &grid));
   check_part(grid);
+  OK(delos_mpi_grid_destroy(grid));
+
+  OK(delos_mpi_generate_text(MPI_COMM_WORLD, rank == 0 ? kOcean : NULL, NULL, NULL, &grid));
+  check_layers(grid);
   OK(delos_mpi_grid_destroy(grid));
 
   int n_calls = 0;

@@ -25,6 +25,9 @@ program mpi_fortran_test
   character(len=*), parameter :: SMALL = &
     "sizing: {sources: [{type: constant, spacing: 600 km}]}"//new_line("a")// &
     "refine: {tile_vertices: 500}"//new_line("a")
+  character(len=*), parameter :: OCEAN = &
+    "generator: icosahedral"//new_line("a")//"subdivisions: 4"//new_line("a")//"data_path: [/none]"//new_line("a")// &
+    "layers: {kind: z_level, levels: {shape: uniform, n: 5, depth: 5000 m}}"//new_line("a")
   type(delos_mpi_grid) :: grid, other
   real(c_double), pointer :: area_m2(:)
   integer :: rank, n_ranks, ierr, n_failed = 0
@@ -46,6 +49,10 @@ program mpi_fortran_test
   call other%generate_from_text(MPI_COMM_WORLD, SMALL, ierr=ierr)
   call check(ierr == DELOS_ERROR_CONFIG .and. index(other%message(), "section layers") > 0, &
              "there are no layers to count: "//other%message())
+  call other%set_options()
+  call other%generate_from_text(MPI_COMM_WORLD, OCEAN, ierr=ierr)
+  call check(ierr == DELOS_SUCCESS, "generate an ocean: "//other%message())
+  call check_layers()
   call other%destroy()
 
   call grid%generate(MPI_COMM_WORLD, "/nowhere.yaml", ierr)
@@ -103,6 +110,16 @@ contains
     call check(size(ids) == n_edges - grid%n_owned(DELOS_MPI_EDGE), "receive_ids")
     ids => grid%owner(9)
     call check(.not. associated(ids), "a wrong location has no list")
+  end subroutine
+
+  subroutine check_layers()
+    real(c_double), allocatable :: thickness_m(:, :)
+    call other%layer_thickness_m(thickness_m, ierr)
+    call check(ierr == DELOS_SUCCESS .and. other%n_levels() == 5, "layer_thickness_m")
+    call check(all(shape(thickness_m) == [5, int(other%n_local(DELOS_MPI_CELL))]), "its shape")
+    call check(all(abs(sum(thickness_m, 1) - other%bottom_depth_m()) < 1d-9), "bottom_depth_m")
+    call check(all(count(thickness_m > 0, 1) == other%max_level_cell()), "max_level_cell")
+    call check(.not. associated(grid%bottom_depth_m()), "a grid without layers has no bottom")
   end subroutine
 
   subroutine check_fields()

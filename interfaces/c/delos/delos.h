@@ -249,6 +249,33 @@ DELOS_C_API int delos_grid_vertex_distance_m(const delos_grid* grid, const doubl
 DELOS_C_API int delos_grid_edge_angle_rad(const delos_grid* grid, const double** values,
                                           int64_t* size);
 
+/* --- the vertical, with a section `layers`; else all of size 0 */
+
+/* [n_levels + 1] ascending, 0 first: of an ocean (kind z_level) the depth of the interfaces between
+ * levels, of an atmosphere (terrain_following) their height over flat ground */
+DELOS_C_API int delos_grid_level_interface_m(const delos_grid* grid, const double** values,
+                                             int64_t* size);
+/* of an ocean, [n_cells]: the layers of each cell from the surface down; 0 on land. The number of
+ * the deepest one from 1, as MPAS's maxLevelCell */
+DELOS_C_API int delos_grid_max_level_cell(const delos_grid* grid, const int32_t** values,
+                                          int64_t* size);
+/* of an ocean, [n_cells]: positive down, of the partial bottom cell; 0 on land */
+DELOS_C_API int delos_grid_bottom_depth_m(const delos_grid* grid, const double** values,
+                                          int64_t* size);
+/* of an atmosphere, [n_cells]: the smoothed ground above sea level */
+DELOS_C_API int delos_grid_ground_height_m(const delos_grid* grid, const double** values,
+                                           int64_t* size);
+/* of an atmosphere, [n_levels + 1]: interface k of a cell is at level_interface_m[k] +
+ * ground_influence[k] * ground_height_m of the cell; 1 first */
+DELOS_C_API int delos_grid_ground_influence(const delos_grid* grid, const double** values,
+                                            int64_t* size);
+/* Into the host's values[n_cells, n_levels], `size` numbers: the thickness at rest; 0 below an
+ * ocean's bottom. */
+DELOS_C_API int delos_grid_layer_thickness_m(const delos_grid* grid, double* values, int64_t size);
+/* Into the host's values[n_cells, n_levels + 1]: the height of each interface above sea level, an
+ * atmosphere's from the ground up (MPAS's zgrid), an ocean's from 0 down to the bottom. */
+DELOS_C_API int delos_grid_interface_height_m(const delos_grid* grid, double* values, int64_t size);
+
 /* --- numbers of the certificate and the report; flags are 0 or 1 */
 
 typedef struct delos_quality {

@@ -127,6 +127,26 @@ class DELOS_API Grid {
   std::span<const double> vertex_distance_m() const;  ///< [n_edges] between the two vertices
   std::span<const double> edge_angle_rad() const;     ///< [n_edges] of the normal from east
 
+  // --- the vertical, with a section `layers`; else all empty
+  /// [n_levels + 1], ascending, 0 first: of an ocean (kind z_level) the depth of the interfaces
+  /// between levels, of an atmosphere (terrain_following) their height over flat ground.
+  std::span<const double> level_interface_m() const;
+  /// Of an ocean, [n_cells]: the layers of each cell, from the surface down; 0 on land. The number
+  /// of the deepest one from 1, as MPAS's maxLevelCell.
+  std::span<const std::int32_t> max_level_cell() const;
+  /// Of an ocean, [n_cells]: positive down, of the partial bottom cell; 0 on land.
+  std::span<const double> bottom_depth_m() const;
+  /// Of an atmosphere, [n_cells]: the smoothed ground above sea level.
+  std::span<const double> ground_height_m() const;
+  /// Of an atmosphere, [n_levels + 1]: interface k of a cell is at level_interface_m[k] +
+  /// ground_influence[k] * ground_height_m of the cell; 1 first.
+  std::span<const double> ground_influence() const;
+  /// [n_cells, n_levels] a new array: the thickness at rest; 0 below an ocean's bottom.
+  std::vector<double> layer_thickness_m() const;
+  /// [n_cells, n_levels + 1] a new array: the height of each interface above sea level, an
+  /// atmosphere's from the ground up (MPAS's zgrid), an ocean's from 0 down to the bottom.
+  std::vector<double> interface_height_m() const;
+
   // --- files: each appears whole or not at all; Error(output) says why not
   void write_mpas(const std::string& path) const;
   /// The Voronoi cells as UGRID faces.

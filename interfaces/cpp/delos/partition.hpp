@@ -103,9 +103,17 @@ class DELOS_API LocalGrid {
   std::span<const double> vertex_distance_m() const;
   std::span<const double> edge_angle_rad() const;
 
+  std::span<const double> level_interface_m() const;  ///< [n_levels + 1] of the whole grid
+  std::span<const std::int32_t> max_level_cell() const;
+  std::span<const double> bottom_depth_m() const;
+  std::span<const double> ground_height_m() const;
+  std::span<const double> ground_influence() const;  ///< [n_levels + 1] of the whole grid
+  std::vector<double> layer_thickness_m() const;
+  std::vector<double> interface_height_m() const;
+
   // --- to another process: its layout, kLayoutSize numbers, then the bytes of its buffers. Both
   //     sides must be the same library on machines of the same kind.
-  static constexpr std::size_t kLayoutSize = 64;
+  static constexpr std::size_t kLayoutSize = 72;
   std::array<std::int64_t, kLayoutSize> layout() const;
   std::vector<std::span<const std::byte>> buffers() const;
   /// Calls fill once for each buffer, in order, to write its bytes. Error(input) for a layout that

@@ -120,7 +120,17 @@ DELOS_MPI_ARRAY(kite_area_m2, double)
 DELOS_MPI_ARRAY(cell_distance_m, double)
 DELOS_MPI_ARRAY(vertex_distance_m, double)
 DELOS_MPI_ARRAY(edge_angle_rad, double)
+DELOS_MPI_ARRAY(level_interface_m, double) /* [n_levels + 1], as ground_influence */
+DELOS_MPI_ARRAY(max_level_cell, int32_t)
+DELOS_MPI_ARRAY(bottom_depth_m, double)
+DELOS_MPI_ARRAY(ground_height_m, double)
+DELOS_MPI_ARRAY(ground_influence, double)
 #undef DELOS_MPI_ARRAY
+/* Into values[n_local, n_levels] and [n_local, n_levels + 1]; `size` counts the numbers. */
+DELOS_C_API int delos_mpi_grid_layer_thickness_m(delos_mpi_grid* grid, double* values,
+                                                 int64_t size);
+DELOS_C_API int delos_mpi_grid_interface_height_m(delos_mpi_grid* grid, double* values,
+                                                  int64_t size);
 
 /* --- fields: [n_local, n_components], owned ones first. `size` counts numbers. Collective. */
 
