@@ -113,6 +113,8 @@ disk=$work/disk
 mkdir "$disk"
 if [ "$(id -u)" = 0 ] && mount -t tmpfs -o size=200k none "$disk" 2>/dev/null; then
   expect 'full disk' 5 "disk" c.yaml -o "$disk/out"
+  config "$uniform" 'output: {compress: true}'
+  expect 'full disk, compressed files' 5 "Free some space" c.yaml -o "$disk/out"
   if [ -n "$(ls -A "$disk")" ]; then
     failures=$((failures + 1))
     echo "FAILED full disk: left $(ls -AR "$disk" | tr '\n' ' ')"
