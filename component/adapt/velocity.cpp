@@ -51,6 +51,7 @@ Array<double> relative_vorticity(parallel::Executor& exec, const Grid& grid,
   parallel::for_index(exec, grid.n_vertices(), kGrain, [&](std::int64_t vertex) {
     double circulation = 0.0;
     for (const Index edge : grid.edges_on_vertex[at(vertex)]) {
+      if (edge == kNone) continue;  // beyond a border, where nothing flows
       // The normal goes counter-clockwise round the vertex on its left.
       const bool is_left = grid.vertices_on_edge[at(edge)][1] == vertex;
       const double part = normal[at(edge)] * grid.cell_distance_m[at(edge)];

@@ -84,6 +84,7 @@ class Rebuild {
   Rebuild(Context& context, const RebuildInput& input, Sized& sized)
       : context_(context),
         old_(input.old),
+        whole_(input.whole),
         settings_(input.old.settings),
         recipe_(input.recipe),
         cells_(static_cast<double>(input.cells)),
@@ -129,6 +130,7 @@ class Rebuild {
 
   Context& context_;
   const Product& old_;
+  const Grid& whole_;
   const Settings& settings_;
   SpacingRecipe recipe_;
   double cells_;
@@ -167,7 +169,7 @@ void Rebuild::set_meeting() {
 /// What is kept keeps its spacing, too, and what is made anew leads over to it.
 void Rebuild::follow(const RemeshPlan& plan, const SpacingField& wanted) {
   if (plan.kind != RemeshKind::local || !options_.region.passes) return;
-  set_spacing(followed_spacing(context_.exec, *old_.grid, plan.region, old_.spacing, wanted));
+  set_spacing(followed_spacing(context_.exec, whole_, plan.region, old_.spacing, wanted));
 }
 
 /// Without a budget: where the mesh that is kept stands against the certificate less of it is.
@@ -215,7 +217,7 @@ bool Rebuild::scale_where_anew(const RemeshPlan& plan) {
   for (int round = 0; round < kMeshRounds; ++round) {
     if (round > 0 || !meets(forecast.at(1.0), kForecastTolerance)) {
       if (share.values.empty()) {
-        share = share_made_anew(context_.exec, *old_.grid, plan.region, wanted);
+        share = share_made_anew(context_.exec, whole_, plan.region, wanted);
         forecast.restrict_to(settings_.surface, wanted, share);
       }
       const std::optional<double> factor = forecast.factor_for(aim.now(), kMostLocalScale);

@@ -11,8 +11,9 @@ namespace delos {
 /// What a rebuild starts from.
 struct RebuildInput {
   const Product& old;           ///< with its dual
+  const Grid& whole;            ///< the dual of all of its mesh (WholeGrid)
   const SpacingRecipe& recipe;  ///< that gave the wanted spacing
-  /// [n_cells of the old grid] or empty: cells that stay whatever is wanted.
+  /// [n_cells of the whole] or empty: cells that stay whatever is wanted.
   const std::vector<char>& is_fixed;
   std::int64_t cells = 0;  ///< budget; 0: none
 };

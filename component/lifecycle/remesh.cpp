@@ -27,14 +27,14 @@ std::int64_t budget_of(const Settings& settings) {
   return settings.remesh->cells > 0 ? settings.remesh->cells : settings.sizing.recipe.cells;
 }
 
-Wanted wanted_now(Context& context, const Product& old, Remesh& remesh) {
+Wanted wanted_now(Context& context, const Product& old, const WholeGrid& whole, Remesh& remesh) {
   Wanted out;
   const Settings& settings = old.settings;
   // After a restart nothing has been read yet.
   if (!remesh.inputs) remesh.keep(read_inputs(context, settings), settings);
   out.inputs = *remesh.inputs;
   SpacingRecipe& recipe = out.inputs.recipe;
-  for (SpacingSource& source : remesh.solution.sources(context.exec, *old.grid)) {
+  for (SpacingSource& source : remesh.solution.sources(context.exec, whole)) {
     recipe.sources.push_back(std::move(source));
   }
   if (const std::int64_t cells = budget_of(settings); cells > 0) {
@@ -55,7 +55,8 @@ Mismatch mismatch_of(Context& context, const Product& product, const Inputs& inp
 
 /// The statistics on the new grid. What begins anew, or is on the host's table, needs no transfer.
 Solution moved(Context& context, const Solution& solution, const Product& old,
-               const Product& product) {
+               const WholeGrid& whole, const Product& product) {
+  const WholeGrid new_whole(context, product);
   const Phase phase(context.monitor, "transfer", product.grid->n_cells());
   std::optional<remap::Transfer> transfer;
   const remap::TransferOptions options{remap::Order::first, remap::Limiter::none};
@@ -63,22 +64,28 @@ Solution moved(Context& context, const Solution& solution, const Product& old,
   out.move(context.exec, *old.grid, *product.grid,
            [&](std::span<const double> from, std::span<double> to) {
              if (!transfer) {
-               transfer.emplace(context, remap::Tiling::cells(context.exec, *old.grid),
-                                remap::Tiling::cells(context.exec, *product.grid),
+               transfer.emplace(context, remap::Tiling::cells(context.exec, whole.grid()),
+                                remap::Tiling::cells(context.exec, new_whole.grid()),
                                 remap::Order::first);
              }
-             transfer->apply(context.exec, from, to, options);
+             if (!whole.is_culled()) return transfer->apply(context.exec, from, to, options);
+             // A cell that was land has neighbours that were sea.
+             Array<double> all(at(new_whole.grid().n_cells()));
+             transfer->apply(context.exec, whole.flooded(from), all, options);
+             new_whole.pick(all, to);
            });
   return out;
 }
 
 /// The old grid made to fit.
-std::shared_ptr<const Product> rebuilt(Context& context, const Product& old, Wanted wanted) {
+std::shared_ptr<const Product> rebuilt(Context& context, const Product& old, const WholeGrid& whole,
+                                       Wanted wanted) {
   const std::vector<char> is_fixed =
-      in_fixed_regions(context.exec, wanted.inputs.fixed, old.grid->cell_lon_lat);
+      in_fixed_regions(context.exec, wanted.inputs.fixed, whole.grid().cell_lon_lat);
   GenerateScope scope;
   scope.make_mesh = [&](Context& inner, Sized& sized, std::vector<ReportSection>& sections) {
-    const RebuildInput input{old, wanted.inputs.recipe, is_fixed, budget_of(old.settings)};
+    const RebuildInput input{old, whole.grid(), wanted.inputs.recipe, is_fixed,
+                             budget_of(old.settings)};
     return rebuild_mesh(inner, input, sized, sections);
   };
   return std::make_shared<const Product>(
@@ -96,17 +103,19 @@ RemeshOutcome try_remesh(Context& context, const Product& old, const Time& now, 
   RemeshOutcome out;
   PolicyInput input{now, true, remesh.solution.is_ready(), {}, 0.0};
   try {
+    std::optional<WholeGrid> whole;
     std::optional<Wanted> wanted;
     if (input.has_statistics) {
-      wanted = wanted_now(context, old, remesh);
+      whole.emplace(context, old);
+      wanted = wanted_now(context, old, *whole, remesh);
       input.mismatch = mismatch_of(context, old, wanted->inputs, wanted->sized.field);
       input.expected_cells = wanted->n_expected;
     }
     out.decision = decide(settings_of(old).policy, input, remesh.policy);
     context.monitor.log(LogLevel::info, out.decision.text);
     if (!out.decision.remesh) return out;
-    std::shared_ptr<const Product> product = rebuilt(context, old, std::move(*wanted));
-    out.solution = moved(context, remesh.solution, old, *product);
+    std::shared_ptr<const Product> product = rebuilt(context, old, *whole, std::move(*wanted));
+    out.solution = moved(context, remesh.solution, old, *whole, *product);
     const PolicyOptions& policy = settings_of(old).policy;
     out.has_followed = mismatch_of(context, *product, *remesh.inputs, product->spacing).total() <=
                        policy.threshold * (1.0 - policy.hysteresis);

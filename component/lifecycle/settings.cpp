@@ -282,9 +282,10 @@ void read_frontal_keys(MapReader& root, Settings& out) {
 /// The part of the sphere that the grid is cut to: an ocean, or a region.
 void read_cut(MapReader& root, Settings& out) {
   out.domain = read_domain(root);
-  if (out.domain && out.remesh) {
-    root.fail("domain", "a culled grid can't be made anew while a model runs: remove `domain` or ",
-              "`remesh`.");
+  if (out.domain && out.domain->fits_coast && out.remesh) {
+    root.fail("domain",
+              "fit_coast moves cells, and a remesh leaves those as they are that need no ",
+              "change: remove domain.fit_coast or `remesh`.");
   }
   out.region = read_region(root, out.surface.scale_m());
   if (out.region && out.remesh) {

@@ -212,11 +212,13 @@ const Solution::Tracker& Solution::tracker_of(SolutionField field) const {
                        [&](const Tracker& tracker) { return tracker.field == field; });
 }
 
-SpacingSource Solution::source_of(parallel::Executor& exec, const Grid& grid,
+SpacingSource Solution::source_of(parallel::Executor& exec, const WholeGrid& whole,
                                   const SolutionSource& source) const {
+  const Grid& grid = whole.grid();
   const auto raster = [&](const Tracker& tracker, std::span<const double> values) {
     return tracker.is_in_cells()
-               ? raster_of_cells(exec, grid, values, cell_resolution_rad(grid), source.name)
+               ? raster_of_cells(exec, grid, whole.spread(values), cell_resolution_rad(grid),
+                                 source.name)
                : raster_of_table(tracker.axes.lon_deg, tracker.axes.lat_deg, values, source.name);
   };
   const Tracker& tracker = tracker_of(source.field);
@@ -236,10 +238,11 @@ SpacingSource Solution::source_of(parallel::Executor& exec, const Grid& grid,
   return {source.name, std::move(law)};
 }
 
-std::vector<SpacingSource> Solution::sources(parallel::Executor& exec, const Grid& grid) const {
+std::vector<SpacingSource> Solution::sources(parallel::Executor& exec,
+                                             const WholeGrid& whole) const {
   std::vector<SpacingSource> out;
   out.reserve(sources_.size());
-  for (const SolutionSource& source : sources_) out.push_back(source_of(exec, grid, source));
+  for (const SolutionSource& source : sources_) out.push_back(source_of(exec, whole, source));
   return out;
 }
 

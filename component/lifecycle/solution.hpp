@@ -13,6 +13,7 @@
 #include "dual/grid.hpp"
 #include "lifecycle/fields.hpp"
 #include "lifecycle/settings_remesh.hpp"
+#include "lifecycle/whole_grid.hpp"
 #include "sizing/sources.hpp"
 
 namespace delos {
@@ -30,8 +31,9 @@ class Solution {
   void add(parallel::Executor& exec, const State& imports, const Grid& grid, double duration_s);
   /// Whether all statistics are.
   bool is_ready() const;
-  /// The sources, with what the statistics say; after is_ready().
-  std::vector<SpacingSource> sources(parallel::Executor& exec, const Grid& grid) const;
+  /// The sources, with what the statistics in the cells of the product of `whole` say, and nothing
+  /// elsewhere; after is_ready().
+  std::vector<SpacingSource> sources(parallel::Executor& exec, const WholeGrid& whole) const;
 
   /// What a restart file keeps of one field's statistics; refers to them.
   struct Saved {
@@ -64,7 +66,7 @@ class Solution {
                    const Grid& grid) const;
   const Tracker& tracker_of(SolutionField field) const;
   void track(SolutionField field);
-  SpacingSource source_of(parallel::Executor& exec, const Grid& grid,
+  SpacingSource source_of(parallel::Executor& exec, const WholeGrid& whole,
                           const SolutionSource& source) const;
 
   std::vector<SolutionSource> sources_;

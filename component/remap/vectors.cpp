@@ -52,6 +52,10 @@ Array<double> normal_velocities(parallel::Executor& exec, const Grid& grid,
   Array<double> result(at(grid.n_edges()));
   parallel::for_index(exec, grid.n_edges(), kVectorGrain, [&](std::int64_t edge) {
     const auto [c, d] = grid.cells_on_edge[at(edge)];
+    if (d == kNone) {
+      result[at(edge)] = 0.0;  // no flow through a border
+      return;
+    }
     result[at(edge)] = 0.5 * edge_normal(grid, edge).dot(cells[at(c)] + cells[at(d)]);
   });
   return result;
