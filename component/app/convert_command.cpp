@@ -12,8 +12,13 @@ int run_convert(const Arguments& arguments, const std::atomic<bool>& cancel) {
   parallel::Executor exec(arguments.threads);
   Monitor monitor({}, {}, &cancel);
   Context context{exec, monitor};
-  convert_grid_file(context, {arguments.file, arguments.directory, kind, arguments.command_line});
+  const std::vector<std::string> left_out = convert_grid_file(
+      context, {arguments.file, arguments.directory, kind, arguments.command_line});
   std::printf("wrote %s\n", arguments.directory.c_str());
+  for (const std::string& what : left_out) {
+    std::printf("left out, %s has no place for it: %s\n",
+                file_kind_names()[static_cast<std::size_t>(kind)].c_str(), what.c_str());
+  }
   return kSuccess;
 }
 

@@ -18,6 +18,7 @@ constexpr std::int32_t kFirstNode = 1;
 constexpr std::int32_t kNoNode = -1;
 
 struct ElementColumns {
+  DimensionId elements;
   VariableId nodes, connection, n_connected, centres, area, mask;
 };
 
@@ -27,6 +28,7 @@ ElementColumns define_elements(netcdf::Writer& file, const Grid& grid, std::size
   const DimensionId corners = file.define_dimension("maxNodePElement", width);
   const DimensionId two = file.define_dimension("coordDim", 2);
   ElementColumns out;
+  out.elements = elements;
   out.nodes = file.define_variable("nodeCoords", Type::float64, {nodes, two});
   file.attribute(out.nodes, "units", "degrees");
   out.connection = file.define_variable("elementConn", Type::int32, {elements, corners});
@@ -141,7 +143,10 @@ void write_esmf_mesh(const std::string& path, const Grid& grid, const Provenance
     Provenance notes = provenance;
     notes.certificate.reset();  // of triangles and edges, which the file does not name
     write_provenance(file, notes, {});
+    VariableId rings;
+    if (!grid.cell_ring.empty()) rings = define_rings(file, columns.elements);
     file.end_definitions();
+    if (!grid.cell_ring.empty()) file.put(rings, std::span<const std::int32_t>(grid.cell_ring));
     put_elements(options.exec != nullptr ? *options.exec : alone, file, columns, grid, width);
     file.close();
   });
@@ -161,6 +166,7 @@ FaceMesh read_esmf_mesh(const std::string& path) {
                 mesh.face_centre.size(), " rows for ", n_faces, " elements. The file is damaged.");
   }
   read_areas(file, "elementArea", mesh);
+  mesh.face_ring = read_rings(file, n_faces);
   return mesh;
 }
 

@@ -9,6 +9,8 @@
 namespace delos {
 namespace {
 
+constexpr char kRings[] = "bdyMaskCell";
+
 double whole_m2(const Ellipsoid& surface) {
   return surface.area() * surface.scale_m() * surface.scale_m();
 }
@@ -52,6 +54,26 @@ void read_surface(const netcdf::Reader& file, FaceMesh& mesh) {
   const std::string latitude = file.text_attribute("", "delos_latitude").value_or("geodetic");
   if (latitude == "geocentric") mesh.latitude = LatitudeKind::geocentric;
   if (latitude == "parametric") mesh.latitude = LatitudeKind::parametric;
+}
+
+netcdf::VariableId define_rings(netcdf::Writer& file, netcdf::DimensionId faces) {
+  const netcdf::VariableId id = file.define_variable(kRings, netcdf::Type::int32, {faces});
+  file.attribute(id, "units", "1");
+  file.attribute(id, "long_name", "ring of the cell: 0 inside, then from there to the border");
+  return id;
+}
+
+std::vector<std::int32_t> read_rings(const netcdf::Reader& file, std::size_t n_faces) {
+  if (!file.has_variable(kRings)) return {};
+  std::vector<std::int32_t> rings = file.read_int32(kRings);
+  DELOS_CHECK(rings.size() == n_faces, ErrorKind::input, file.path(), ": variable ",
+              file.variable(kRings).shape_text(), " must have a value for each of the ", n_faces,
+              " cells. The file is damaged.");
+  const auto bad = std::find_if(rings.begin(), rings.end(), [](auto ring) { return ring < 0; });
+  DELOS_CHECK(bad == rings.end(), ErrorKind::input, file.path(), ": ", kRings, " of cell ",
+              bad - rings.begin() + 1, " (from 1) is ", *bad,
+              ": rings count from 0. The file is damaged.");
+  return rings;
 }
 
 std::vector<double> read_radians(const netcdf::Reader& file, const std::string& variable) {

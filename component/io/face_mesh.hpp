@@ -12,11 +12,12 @@ namespace delos {
 
 /// Polygons on a surface, as a file has them.
 struct FaceMesh {
-  std::vector<LonLat> node;            ///< radians, lon in (-pi, pi]
-  std::vector<LonLat> face_centre;     ///< the same; empty when the file has none
-  Ragged<Index> nodes_on_face;         ///< from 0, in the order of the file
-  std::vector<double> face_area_m2;    ///< empty when the file has none
-  std::optional<Ellipsoid> ellipsoid;  ///< when the file says so
+  std::vector<LonLat> node;             ///< radians, lon in (-pi, pi]
+  std::vector<LonLat> face_centre;      ///< the same; empty when the file has none
+  Ragged<Index> nodes_on_face;          ///< from 0, in the order of the file
+  std::vector<double> face_area_m2;     ///< empty when the file has none
+  std::vector<std::int32_t> face_ring;  ///< Grid::cell_ring; empty when the file has none
+  std::optional<Ellipsoid> ellipsoid;   ///< when the file says so
   LatitudeKind latitude = LatitudeKind::geodetic;
 };
 
@@ -36,6 +37,13 @@ void read_areas(const netcdf::Reader& file, const std::string& variable, FaceMes
 
 /// The surface, read back; what is not there stays as it was. Error(input) for radii that are none.
 void read_surface(const netcdf::Reader& file, FaceMesh& mesh);
+
+/// Variable `bdyMaskCell`: the ring of each face of a regional grid, as MPAS files name it.
+netcdf::VariableId define_rings(netcdf::Writer& file, netcdf::DimensionId faces);
+
+/// The same read back; empty when the file has none. Error(input) unless it has `n_faces` rings
+/// that count from 0.
+std::vector<std::int32_t> read_rings(const netcdf::Reader& file, std::size_t n_faces);
 
 /// A whole variable in radians, by its units ("degrees" where it has none). Error(input) naming the
 /// entry that is not a finite number.

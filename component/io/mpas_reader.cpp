@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "core/error.hpp"
+#include "io/face_mesh.hpp"
 #include "io/mpas.hpp"
 
 namespace delos {
@@ -55,7 +56,6 @@ class MpasTables {
   Array<Vec3> positions(const std::string& entity, std::int64_t rows) const;
   Array<LonLat> lon_lats(const std::string& entity, std::int64_t rows) const;
   Array<double> spacing(const Grid& grid) const;
-  Array<std::int32_t> rings() const;
 
   netcdf::Reader file_;
   std::int64_t n_cells_ = 0, n_edges_ = 0, n_vertices_ = 0;
@@ -187,16 +187,8 @@ void MpasTables::read_measures(Grid& grid) const {
   if (file_.has_variable("delos_edge_spacing")) {
     grid.edge_spacing_m = measure("delos_edge_spacing", n_edges_);
   }
-  if (file_.has_variable("bdyMaskCell")) grid.cell_ring = rings();
-}
-
-Array<std::int32_t> MpasTables::rings() const {
-  check_shape("bdyMaskCell", n_cells_, 1);
-  const std::vector<std::int32_t> values = file_.read_int32("bdyMaskCell");
-  const auto bad = std::find_if(values.begin(), values.end(), [](auto ring) { return ring < 0; });
-  DELOS_CHECK(bad == values.end(), ErrorKind::input, file_.path(), ": bdyMaskCell of cell ",
-              bad - values.begin() + 1, " is ", *bad, ": rings count from 0. The file is damaged.");
-  return {values.begin(), values.end()};
+  const std::vector<std::int32_t> rings = read_rings(file_, n_cells_);
+  grid.cell_ring.assign(rings.begin(), rings.end());
 }
 
 Array<double> MpasTables::spacing(const Grid& grid) const {

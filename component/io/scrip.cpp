@@ -17,6 +17,7 @@ using netcdf::Type;
 using netcdf::VariableId;
 
 struct CellColumns {
+  DimensionId size;
   VariableId dims, centre_lat, centre_lon, corner_lat, corner_lon, mask, area;
 };
 
@@ -30,6 +31,7 @@ CellColumns define(netcdf::Writer& file, const Grid& grid, std::size_t width) {
     return id;
   };
   CellColumns out;
+  out.size = size;
   out.dims = file.define_variable("grid_dims", Type::int32, {rank});
   out.centre_lat = angle("grid_center_lat", {size});
   out.centre_lon = angle("grid_center_lon", {size});
@@ -155,7 +157,10 @@ void write_scrip(const std::string& path, const Grid& grid, const Provenance& pr
     Provenance notes = provenance;
     notes.certificate.reset();
     write_provenance(file, notes, {});
+    netcdf::VariableId rings;
+    if (!grid.cell_ring.empty()) rings = define_rings(file, columns.size);
     file.end_definitions();
+    if (!grid.cell_ring.empty()) file.put(rings, std::span<const std::int32_t>(grid.cell_ring));
     put(options.exec != nullptr ? *options.exec : alone, file, columns, grid, width);
     file.close();
   });
@@ -182,6 +187,7 @@ FaceMesh read_scrip(const std::string& path) {
   const std::vector<Index> ids = merge(corners, mesh.node);
   mesh.nodes_on_face = distinct(path, ids, shape.dimensions[1].length);
   read_areas(file, "grid_area", mesh);
+  mesh.face_ring = read_rings(file, mesh.face_centre.size());
   return mesh;
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// UGRID 1.0 files that CDO and ESMF read too, on any ellipsoid, and the spacing on its lat-lon
-// table.
+// UGRID 1.0 files that CDO and ESMF read too, on any ellipsoid.
 #include <array>
 #include <span>
 #include <string>
@@ -44,7 +43,8 @@ void write_ugrid_triangles(const std::string& path, const Mesh& mesh, const Ugri
                            const Provenance& provenance, const UgridOptions& options = {});
 
 /// The Voronoi cells, topology `delos_cells`: faces are cells, nodes their corners; with
-/// `delos_edge_spacing` when the grid has edge_spacing_m. Atomic.
+/// `delos_edge_spacing` when the grid has edge_spacing_m and `bdyMaskCell` when it has rings.
+/// Atomic.
 void write_ugrid_cells(const std::string& path, const Grid& grid, const Provenance& provenance,
                        const UgridOptions& options = {});
 
@@ -59,11 +59,6 @@ struct UgridMesh : FaceMesh {
 /// Reads the first topology of dimension 2 of any UGRID file: start_index 0 or 1, padding by
 /// _FillValue, degrees or radians, either order of the connectivity's dimensions.
 UgridMesh read_ugrid(const std::string& path);
-
-/// The lat-lon table of the spacing as a CF variable `spacing`(lat, lon) in metres; longitudes
-/// -180 <= lon < 180. Atomic.
-void write_spacing(const std::string& path, const LatLonField& spacing_m,
-                   const Provenance& provenance, netcdf::Format format = netcdf::Format::cdf5);
 
 /// Bytes of the file that write_ugrid_triangles makes with the spacing, within a few per cent.
 std::uint64_t ugrid_triangles_size_bytes(std::int64_t n_vertices, const UgridOptions& options = {});

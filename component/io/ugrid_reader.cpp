@@ -189,8 +189,10 @@ UgridMesh TopologyReader::read() const {
   if (file_.text_attribute(topology_, "face_coordinates")) {
     mesh.face_centre = coordinates("face_coordinates");
   }
-  mesh.face_area_m2 = face_areas(static_cast<std::size_t>(mesh.nodes_on_face.offsets.n_rows()));
+  const auto n_faces = static_cast<std::size_t>(mesh.nodes_on_face.offsets.n_rows());
+  mesh.face_area_m2 = face_areas(n_faces);
   read_surface(mesh);
+  mesh.face_ring = read_rings(file_, n_faces);
   if (file_.has_variable("delos_edge_spacing")) read_edge_spacing(mesh);
   return mesh;
 }

@@ -137,6 +137,10 @@ void write_vtu_cells(const std::string& path, const Grid& grid) {
     file.add<double>("CellData", "spacing_m", n,
                      [&](std::int64_t i) { return grid.cell_spacing_m[at(i)]; });
   }
+  if (!grid.cell_ring.empty()) {
+    file.add<std::int32_t>("CellData", "bdyMaskCell", n,
+                           [&](std::int64_t i) { return grid.cell_ring[at(i)]; });
+  }
   file.add_points("Points", "Points", grid.n_vertices(),
                   [&](std::int64_t i) -> Vec3 { return scale_m * grid.vertex_position[at(i)]; });
   const Ragged<Index>& nodes = grid.vertices_on_cell;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cstring>
+#include <limits>
 #include <map>
 
 #include "core/error.hpp"
@@ -315,6 +316,17 @@ VtuMesh read_vtu(const std::string& path) {
     out.centre = std::move(centres.position);
   }
   out.cell_spacing_m = column_of(file, "CellData/spacing_m", n_cells);
+  if (file.has("CellData/bdyMaskCell")) {
+    const auto rings = file.values<std::int64_t>("CellData/bdyMaskCell");
+    const bool are_rings = static_cast<std::int64_t>(rings.size()) == n_cells &&
+                           std::all_of(rings.begin(), rings.end(), [](std::int64_t ring) {
+                             return ring >= 0 && ring <= std::numeric_limits<std::int32_t>::max();
+                           });
+    DELOS_CHECK(are_rings, ErrorKind::input, path,
+                ": bdyMaskCell must be a ring, from 0, for each of ", n_cells,
+                " cells. The file is damaged.");
+    out.cell_ring.assign(rings.begin(), rings.end());
+  }
   return out;
 }
 

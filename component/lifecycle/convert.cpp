@@ -7,6 +7,7 @@
 #include "core/error.hpp"
 #include "domain/stack.hpp"
 #include "dual/build.hpp"
+#include "dual/digest.hpp"
 #include "io/esmf_mesh.hpp"
 #include "io/fesom.hpp"
 #include "io/gmsh.hpp"
@@ -16,6 +17,7 @@
 #include "io/scrip.hpp"
 #include "io/ugrid.hpp"
 #include "io/vtu.hpp"
+#include "lifecycle/domain.hpp"
 #include "lifecycle/grid_file.hpp"
 #include "lifecycle/outputs.hpp"
 #include "lifecycle/version.hpp"
@@ -38,7 +40,7 @@ FileKind kind_named(const std::string& to) {
   return static_cast<FileKind>(found - names.begin());
 }
 
-Provenance provenance_of(const Conversion& conversion, const GridFile& file) {
+Provenance provenance_of(Context& context, const Conversion& conversion, const GridFile& file) {
   Provenance out;
   out.version = library_version();
   out.config = file.origin.config;
@@ -47,7 +49,11 @@ Provenance provenance_of(const Conversion& conversion, const GridFile& file) {
   }
   out.history = history_now(conversion.command);
   if (!file.origin.history.empty()) out.history += "\n" + file.origin.history;
-  if (file.mesh) out.digest = digest(*file.mesh);
+  if (file.mesh) {
+    out.digest = digest(*file.mesh);
+  } else if (file.grid) {
+    out.digest = digest(context.exec, *file.grid);
+  }
   if (file.origin.format == "MPAS") out.parent_id = mpas_parent_id(conversion.from);
   return out;
 }
@@ -79,7 +85,29 @@ MpasVertical vertical_of(const GridFile& file) {
   return file.origin.format == "MPAS" ? read_mpas_vertical(file.path) : MpasVertical{};
 }
 
-/// The same for each side once, from the triangle of lower id; empty when it is not known.
+/// Of the sides of triangles_of(grid), each once, from the triangle of lower id.
+std::vector<double> spacing_by_triangle(const Grid& grid) {
+  std::vector<double> out;
+  if (grid.edge_spacing_m.empty()) return out;
+  const auto is_triangle = [&](Index vertex) {
+    const auto& cells = grid.cells_on_vertex[at(vertex)];
+    return std::find(cells.begin(), cells.end(), kNone) == cells.end();
+  };
+  for (Index vertex = 0; vertex < grid.n_vertices(); ++vertex) {
+    if (!is_triangle(vertex)) continue;
+    // Side k is opposite corner k, across edge k - 1.
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index edge = grid.edges_on_vertex[at(vertex)][(k + 2) % 3];
+      const auto& ends = grid.vertices_on_edge[at(edge)];
+      const Index beyond = ends[0] == vertex ? ends[1] : ends[0];
+      if (beyond < vertex && is_triangle(beyond)) continue;
+      out.push_back(grid.edge_spacing_m[at(edge)]);
+    }
+  }
+  return out;
+}
+
+/// The same for each side of the mesh; empty when it is not known.
 std::vector<double> spacing_by_triangle(const GridFile& file) {
   std::vector<double> out;
   if (!file.spacing) return out;
@@ -114,13 +142,33 @@ void write_triangles(const std::string& path, FileKind kind, const TriangleSet& 
       return write_gmsh(path, set);
     case FileKind::jigsaw:
       return write_jigsaw(path, set);
-    case FileKind::fesom:
-      return write_into_folder(path, set);
     default:
-      throw Error(ErrorKind::input, text("triangles with a border can't be made into ",
-                                         file_kind_names()[static_cast<std::size_t>(kind)],
-                                         ", only into vtu, gmsh, jigsaw or fesom."));
+      return write_into_folder(path, set);
   }
+}
+
+/// What a file of triangles with a border can become: all but cells, which it does not have.
+void write_open_triangles(Context& context, const GridFile& file, const Conversion& conversion) {
+  const TriangleSet& set = *file.triangles;
+  if (conversion.kind == FileKind::ugrid_triangles) {
+    Array<Vertex> points(set.position.size());
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const Vec3& p = set.position[i];
+      points[i] = {p.x(), p.y(), p.z(), 0.0};
+    }
+    return write_ugrid_triangles(
+        conversion.to, mesh_from_triangles(std::move(points), set.corners, Border::allowed),
+        {file.surface, file.latitude}, provenance_of(context, conversion, file),
+        {netcdf::Format::cdf5, true, &context.exec});
+  }
+  const bool is_possible = !holds_cells(conversion.kind) || conversion.kind == FileKind::vtu;
+  DELOS_CHECK(is_possible, ErrorKind::input, conversion.from,
+              ": triangles with a border can't be made into ",
+              file_kind_names()[static_cast<std::size_t>(conversion.kind)],
+              ", which holds cells: those along the border reach beyond the triangles. Convert a "
+              "file of cells (mpas, ugrid_cells, scrip, esmf, vtu), or into ugrid_triangles, vtu, "
+              "gmsh, jigsaw or fesom.");
+  write_triangles(conversion.to, conversion.kind, set);
 }
 
 /// With the layers that the file has: MPAS's own, or those above the depths of a FESOM2 mesh, the
@@ -146,29 +194,35 @@ void write_mpas_layers(Context& context, const GridFile& file, const Conversion&
   write_mpas(conversion.to, grid_of(context, file), provenance, options);
 }
 
-/// The triangles, with depths where they are known and can be written.
-TriangleSet closed_triangles(const GridFile& file, FileKind kind) {
-  TriangleSet set = triangle_set(file.surface, file.latitude, *file.mesh);
+/// The triangles, with depths where they are known and can be written; of a grid with a border
+/// those between three cells, and the cells in them.
+TriangleSet triangles_for(const GridFile& file, FileKind kind) {
+  const Mesh open = file.mesh ? Mesh() : triangles_of(*file.grid);
+  TriangleSet set = triangle_set(file.surface, file.latitude, file.mesh ? *file.mesh : open);
   set.depth_m = file.depth_m;
   set.level_m = file.level_m;
-  if (kind != FileKind::fesom) return set;
-  MpasVertical vertical = vertical_of(file);
-  if (vertical.interface_m.empty()) return set;
-  set.depth_m = std::move(vertical.bottom_depth_m);
-  set.level_m = std::move(vertical.interface_m);
+  if (kind == FileKind::fesom) {
+    MpasVertical vertical = vertical_of(file);
+    if (!vertical.interface_m.empty()) {
+      set.depth_m = std::move(vertical.bottom_depth_m);
+      set.level_m = std::move(vertical.interface_m);
+    }
+  }
+  if (!file.mesh) drop_lone_points(set);
   return set;
 }
 
-void write_closed(Context& context, const GridFile& file, const Conversion& conversion) {
+void write_cells_or_mesh(Context& context, const GridFile& file, const Conversion& conversion) {
   const std::string& path = conversion.to;
-  Provenance provenance = provenance_of(conversion, file);
+  Provenance provenance = provenance_of(context, conversion, file);
   if (!holds_cells(conversion.kind) && conversion.kind != FileKind::ugrid_triangles) {
-    return write_triangles(path, conversion.kind, closed_triangles(file, conversion.kind));
+    return write_triangles(path, conversion.kind, triangles_for(file, conversion.kind));
   }
-  certify(context, file, provenance);
+  if (file.mesh) certify(context, file, provenance);
   if (conversion.kind == FileKind::ugrid_triangles) {
-    const std::vector<double> spacing_m = spacing_by_triangle(file);
-    return write_ugrid_triangles(path, *file.mesh,
+    const std::vector<double> spacing_m =
+        file.mesh ? spacing_by_triangle(file) : spacing_by_triangle(*file.grid);
+    return write_ugrid_triangles(path, file.mesh ? *file.mesh : triangles_of(*file.grid),
                                  {file.surface, file.latitude, nullptr, spacing_m}, provenance,
                                  {netcdf::Format::cdf5, true, &context.exec});
   }
@@ -188,6 +242,28 @@ void write_closed(Context& context, const GridFile& file, const Conversion& conv
   }
 }
 
+/// What the file has and the kind does not hold, in words.
+std::vector<std::string> left_out(const GridFile& file, FileKind kind) {
+  std::vector<std::string> out;
+  const MpasVertical vertical = vertical_of(file);
+  const bool has_ocean = vertical.ocean() || !file.depth_m.empty() ||
+                         (file.triangles && !file.triangles->depth_m.empty());
+  const bool holds_ocean = kind == FileKind::fesom || (kind == FileKind::mpas && !file.triangles) ||
+                           (kind == FileKind::vtu && file.triangles);
+  if ((has_ocean && !holds_ocean) || (vertical.terrain() && kind != FileKind::mpas)) {
+    out.emplace_back("layers");
+  }
+  if (!file.grid || holds_cells(kind)) return out;
+  if (!file.grid->cell_ring.empty()) out.emplace_back("rings");
+  if (is_closed(*file.grid)) return out;
+  out.emplace_back("the outlines of the cells along the border (no way back to cells)");
+  if (kind == FileKind::ugrid_triangles) return out;
+  const auto n_lone =
+      file.grid->n_cells() - static_cast<std::int64_t>(triangles_for(file, kind).position.size());
+  if (n_lone > 0) out.push_back(text(n_lone, n_lone == 1 ? " cell" : " cells", " of no triangle"));
+  return out;
+}
+
 }  // namespace
 
 FileKind file_kind_of(const std::string& path, const std::string& to) {
@@ -204,16 +280,15 @@ FileKind file_kind_of(const std::string& path, const std::string& to) {
                    join_names(file_kind_names()), "."));
 }
 
-void convert_grid_file(Context& context, const Conversion& conversion) {
+std::vector<std::string> convert_grid_file(Context& context, const Conversion& conversion) {
   const GridFile file = read_grid_file(context, conversion.from);
   const Phase phase(context.monitor, "write", 1);
   if (file.triangles) {
-    write_triangles(conversion.to, conversion.kind, *file.triangles);
-    return;
+    write_open_triangles(context, file, conversion);
+  } else {
+    write_cells_or_mesh(context, file, conversion);
   }
-  DELOS_CHECK(file.mesh, ErrorKind::input, conversion.from,
-              ": cells with a border can't be converted.");
-  write_closed(context, file, conversion);
+  return left_out(file, conversion.kind);
 }
 
 }  // namespace delos

@@ -19,6 +19,7 @@
 #include "io/ugrid.hpp"
 #include "io/vtu.hpp"
 #include "lifecycle/edge_spacing.hpp"
+#include "lifecycle/face_grid.hpp"
 
 namespace delos {
 namespace {
@@ -183,10 +184,22 @@ void take_open(GridFile& out, const Array<Vertex>& points, const Corners& corner
   take_triangles(out, std::move(set));
 }
 
-/// Triangles become the mesh, other polygons the Voronoi cells of one, and with a border the
-/// triangles of either; `edges` when the file has
-/// the spacing there.
-void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = nullptr) {
+/// Voronoi cells with a border become a C-grid.
+void take_cells(parallel::Executor& exec, GridFile& out, const FaceMesh& faces,
+                const UgridMesh* edges) {
+  try {
+    FaceGrid made = face_grid(exec, out.surface, faces, edges);
+    out.grid = std::move(made.grid);
+    out.n_turned = made.n_turned;
+  } catch (const Error& error) {
+    throw Error(error.kind(), text(out.path, ": ", error.what()));
+  }
+}
+
+/// Triangles become the mesh, or with a border a set of triangles, other polygons the Voronoi cells
+/// of a mesh, or with a border a C-grid; `edges` when the file has the spacing there.
+void take_faces(parallel::Executor& exec, GridFile& out, const FaceMesh& faces,
+                const UgridMesh* edges = nullptr) {
   if (faces.ellipsoid) out.surface = *faces.ellipsoid;
   out.latitude = faces.latitude;
   const auto n_faces = static_cast<std::size_t>(faces.nodes_on_face.offsets.n_rows());
@@ -210,12 +223,12 @@ void take_faces(GridFile& out, const FaceMesh& faces, const UgridMesh* edges = n
   const Corners corners = node_faces(out.path, faces, centres);
   const bool has_border =
       std::any_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
-  if (has_border) return take_open(out, centres, corners);
+  if (has_border) return take_cells(exec, out, faces, edges);
   out.mesh = mesh_from_triangles(std::move(centres), corners);
   if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::triangles, edges->edge_spacing_m});
 }
 
-void read_vtu_into(GridFile& out) {
+void read_vtu_into(parallel::Executor& exec, GridFile& out) {
   VtuMesh vtu = read_vtu(out.path);
   if (vtu.centre.empty()) {
     DELOS_CHECK(!vtu.points.corners.empty(), ErrorKind::input, out.path,
@@ -235,7 +248,11 @@ void read_vtu_into(GridFile& out) {
   faces.node = places_of(vtu.points.position);
   faces.face_centre = places_of(vtu.centre);
   faces.nodes_on_face = std::move(vtu.nodes_on_face);
-  take_faces(out, faces);
+  faces.face_ring = std::move(vtu.cell_ring);
+  take_faces(exec, out, faces);
+  if (out.grid) {
+    out.grid->cell_spacing_m.assign(vtu.cell_spacing_m.begin(), vtu.cell_spacing_m.end());
+  }
   if (!out.mesh || vtu.cell_spacing_m.empty()) return;
   for (std::size_t i = 0; i < vtu.cell_spacing_m.size(); ++i) {
     out.mesh->vertices[i].spacing = vtu.cell_spacing_m[i] / out.surface.scale_m();
@@ -249,7 +266,7 @@ const char* netcdf_kind(const netcdf::Reader& file) {
   return is_esmf_mesh(file) ? "ESMF mesh" : "";
 }
 
-void read_netcdf_into(GridFile& out) {
+void read_netcdf_into(parallel::Executor& exec, GridFile& out) {
   std::string kind;
   {
     const netcdf::Reader file(out.path);
@@ -261,10 +278,10 @@ void read_netcdf_into(GridFile& out) {
     out.origin = read_origin(file, kind.c_str());
   }
   if (kind == "MPAS") return read_mpas_into(out);
-  if (kind == "SCRIP") return take_faces(out, read_scrip(out.path));
-  if (kind == "ESMF mesh") return take_faces(out, read_esmf_mesh(out.path));
+  if (kind == "SCRIP") return take_faces(exec, out, read_scrip(out.path));
+  if (kind == "ESMF mesh") return take_faces(exec, out, read_esmf_mesh(out.path));
   const UgridMesh ugrid = read_ugrid(out.path);
-  take_faces(out, ugrid, &ugrid);
+  take_faces(exec, out, ugrid, &ugrid);
 }
 
 /// The first bytes tell the kinds of text files apart; empty: none of them.
@@ -318,14 +335,15 @@ GridFile read_grid_file(Context& context, const std::string& path) {
   } else if (kind == "JIGSAW") {
     take_triangles(out, read_jigsaw(path));
   } else if (kind == "VTU") {
-    read_vtu_into(out);
+    read_vtu_into(context.exec, out);
   } else {
-    read_netcdf_into(out);
+    read_netcdf_into(context.exec, out);
   }
   return out;
 }
 
-Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Index, 3>> corners) {
+Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Index, 3>> corners,
+                         Border border) {
   struct Side {
     Index low, high, tri, side;
     bool operator<(const Side& other) const {
@@ -348,11 +366,12 @@ Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Inde
     }
   }
   std::sort(sides.begin(), sides.end());
-  for (std::size_t i = 0; i < sides.size(); i += 2) {
+  for (std::size_t i = 0; i < sides.size(); ++i) {
     const bool is_pair = i + 1 < sides.size() && sides[i].low == sides[i + 1].low &&
                          sides[i].high == sides[i + 1].high;
     const bool is_triple = is_pair && i + 2 < sides.size() && sides[i].low == sides[i + 2].low &&
                            sides[i].high == sides[i + 2].high;
+    if (!is_pair && border == Border::allowed) continue;
     DELOS_CHECK(is_pair && !is_triple, ErrorKind::input, "the edge of vertices ", sides[i].low,
                 " and ", sides[i].high, " has ",
                 is_pair ? "more than two triangles" : "one triangle",
@@ -362,6 +381,7 @@ Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Inde
     };
     link(sides[i], sides[i + 1]);
     link(sides[i + 1], sides[i]);
+    ++i;
   }
   return mesh;
 }

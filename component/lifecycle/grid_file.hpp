@@ -32,12 +32,13 @@ struct GridFile {
   std::optional<Mesh> mesh;
   /// The spacing that was asked for at the mesh's sides; null where the file does not say.
   SideSpacing spacing;
-  /// The C-grid as the file has it (MPAS); none for the others, which hold no C-grid tables.
+  /// The C-grid as the file has it (MPAS), or made of Voronoi cells with a border (other files of
+  /// cells); none for other files of the whole surface, which hold no C-grid tables.
   std::optional<Grid> grid;
-  /// Triangles with a border, or those between Voronoi cells with one, points of no triangle left
-  /// out; then there is neither of the others.
+  /// Triangles with a border, points of no triangle left out; then there is neither of the others.
   std::optional<TriangleSet> triangles;
-  std::int64_t n_turned = 0;  ///< triangles that were clockwise in a VTU, Gmsh, JIGSAW, FESOM2 file
+  std::int64_t n_turned =
+      0;  ///< triangles, or cells with a border, that were clockwise in the file
   std::vector<double> depth_m, level_m;  ///< at the mesh's vertices; FESOM2 only, else empty
 };
 
@@ -50,8 +51,12 @@ std::vector<std::string> grid_files(const std::string& path);
 /// its tables name what is not there.
 GridFile read_grid_file(Context& context, const std::string& path);
 
-/// Closes triangles over points into a mesh: finds the neighbours. Error(input), naming the edge,
-/// unless every edge has exactly one triangle on each side.
-Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Index, 3>> corners);
+enum class Border { refused, allowed };
+
+/// Joins triangles over points to a mesh: finds the neighbours, kNone at a border. Error(input),
+/// naming the edge, unless every edge has exactly one triangle on each side, or at an allowed
+/// border one alone.
+Mesh mesh_from_triangles(Array<Vertex> vertices, std::span<const std::array<Index, 3>> corners,
+                         Border border = Border::refused);
 
 }  // namespace delos

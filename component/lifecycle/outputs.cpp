@@ -19,6 +19,7 @@
 #include "io/part_file.hpp"
 #include "io/provenance.hpp"
 #include "io/scrip.hpp"
+#include "io/spacing_file.hpp"
 #include "io/ugrid.hpp"
 #include "io/vtu.hpp"
 #include "lifecycle/edge_spacing.hpp"

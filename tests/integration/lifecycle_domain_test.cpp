@@ -116,7 +116,7 @@ TEST_CASE("every kind of file holds the ocean alone and reads back") {
     if (file.grid) {
       expect_sound(*file.grid);
       CHECK(file.grid->cells_on_edge == grid.cells_on_edge);
-      CHECK(file.grid->cells_on_vertex == grid.cells_on_vertex);
+      CHECK(file.grid->vertices_on_edge == grid.vertices_on_edge);
       CHECK(file.grid->edges_on_edge.values == grid.edges_on_edge.values);
       continue;
     }

@@ -12,6 +12,7 @@
 
 #include "io/mpas.hpp"
 #include "io/scrip.hpp"
+#include "io/spacing_file.hpp"
 #include "io/ugrid.hpp"
 #include "support/run_command.hpp"
 #include "support/sample_grids.hpp"

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "io/spacing_file.hpp"
 #include "support/expect_error.hpp"
 #include "support/file_size_limit.hpp"
 #include "support/sample_grids.hpp"
