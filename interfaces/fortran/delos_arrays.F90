@@ -7,6 +7,8 @@ module delos_arrays
   implicit none
   private
   public :: delos_grid_arrays, delos_one_based
+  ! For the modules of delos.
+  public :: get_reals, get_real_table, get_ids, get_id_table, get_offsets
 
   ! Ids have base 0, as in C; delos_one_based() copies them with base 1. Arrays are not copied:
   ! the pointers are valid until the grid is destroyed or generated anew. Metres and radians.
@@ -59,22 +61,25 @@ module delos_arrays
 
 contains
 
-  subroutine get_reals(self, getter, values, ierr)
-    class(delos_grid_arrays), intent(in) :: self
+  ! An array of a handle's, as a pointer; null() where there is none.
+  subroutine get_reals(handle, getter, values, ierr)
+    type(c_ptr), intent(in) :: handle
     procedure(array_getter) :: getter
     real(c_double), pointer, intent(out) :: values(:)
     integer, intent(out), optional :: ierr
     type(c_ptr) :: first
     integer(c_int64_t) :: n
     integer(c_int) :: status
-    status = getter(self%handle, first, n)
+    status = getter(handle, first, n)
     values => null()
-    if (status == DELOS_SUCCESS) call c_f_pointer(first, values, [n])
+    if (status == DELOS_SUCCESS) then
+      if (c_associated(first)) call c_f_pointer(first, values, [n])
+    end if
     call report_status(status, ierr)
   end subroutine
 
-  subroutine get_real_table(self, getter, columns, values, ierr)
-    class(delos_grid_arrays), intent(in) :: self
+  subroutine get_real_table(handle, getter, columns, values, ierr)
+    type(c_ptr), intent(in) :: handle
     procedure(array_getter) :: getter
     integer, intent(in) :: columns
     real(c_double), pointer, intent(out) :: values(:, :)
@@ -82,28 +87,32 @@ contains
     type(c_ptr) :: first
     integer(c_int64_t) :: n
     integer(c_int) :: status
-    status = getter(self%handle, first, n)
+    status = getter(handle, first, n)
     values => null()
-    if (status == DELOS_SUCCESS) call c_f_pointer(first, values, [int(columns, c_int64_t), n/columns])
+    if (status == DELOS_SUCCESS) then
+      if (c_associated(first)) call c_f_pointer(first, values, [int(columns, c_int64_t), n/columns])
+    end if
     call report_status(status, ierr)
   end subroutine
 
-  subroutine get_ids(self, getter, values, ierr)
-    class(delos_grid_arrays), intent(in) :: self
+  subroutine get_ids(handle, getter, values, ierr)
+    type(c_ptr), intent(in) :: handle
     procedure(array_getter) :: getter
     integer(c_int32_t), pointer, intent(out) :: values(:)
     integer, intent(out), optional :: ierr
     type(c_ptr) :: first
     integer(c_int64_t) :: n
     integer(c_int) :: status
-    status = getter(self%handle, first, n)
+    status = getter(handle, first, n)
     values => null()
-    if (c_associated(first)) call c_f_pointer(first, values, [n])
+    if (status == DELOS_SUCCESS) then
+      if (c_associated(first)) call c_f_pointer(first, values, [n])
+    end if
     call report_status(status, ierr)
   end subroutine
 
-  subroutine get_id_table(self, getter, columns, values, ierr)
-    class(delos_grid_arrays), intent(in) :: self
+  subroutine get_id_table(handle, getter, columns, values, ierr)
+    type(c_ptr), intent(in) :: handle
     procedure(array_getter) :: getter
     integer, intent(in) :: columns
     integer(c_int32_t), pointer, intent(out) :: values(:, :)
@@ -111,23 +120,27 @@ contains
     type(c_ptr) :: first
     integer(c_int64_t) :: n
     integer(c_int) :: status
-    status = getter(self%handle, first, n)
+    status = getter(handle, first, n)
     values => null()
-    if (status == DELOS_SUCCESS) call c_f_pointer(first, values, [int(columns, c_int64_t), n/columns])
+    if (status == DELOS_SUCCESS) then
+      if (c_associated(first)) call c_f_pointer(first, values, [int(columns, c_int64_t), n/columns])
+    end if
     call report_status(status, ierr)
   end subroutine
 
-  subroutine get_offsets(self, getter, values, ierr)
-    class(delos_grid_arrays), intent(in) :: self
+  subroutine get_offsets(handle, getter, values, ierr)
+    type(c_ptr), intent(in) :: handle
     procedure(array_getter) :: getter
     integer(c_int64_t), pointer, intent(out) :: values(:)
     integer, intent(out), optional :: ierr
     type(c_ptr) :: first
     integer(c_int64_t) :: n
     integer(c_int) :: status
-    status = getter(self%handle, first, n)
+    status = getter(handle, first, n)
     values => null()
-    if (status == DELOS_SUCCESS) call c_f_pointer(first, values, [n])
+    if (status == DELOS_SUCCESS) then
+      if (c_associated(first)) call c_f_pointer(first, values, [n])
+    end if
     call report_status(status, ierr)
   end subroutine
 
@@ -224,182 +237,182 @@ contains
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_cell_position, 3, values, ierr)
+    call get_real_table(self%handle, c_cell_position, 3, values, ierr)
   end function
 
   function edge_position(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_edge_position, 3, values, ierr)
+    call get_real_table(self%handle, c_edge_position, 3, values, ierr)
   end function
 
   function vertex_position(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_vertex_position, 3, values, ierr)
+    call get_real_table(self%handle, c_vertex_position, 3, values, ierr)
   end function
 
   function cell_lon_lat(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_cell_lon_lat, 2, values, ierr)
+    call get_real_table(self%handle, c_cell_lon_lat, 2, values, ierr)
   end function
 
   function edge_lon_lat(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_edge_lon_lat, 2, values, ierr)
+    call get_real_table(self%handle, c_edge_lon_lat, 2, values, ierr)
   end function
 
   function vertex_lon_lat(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_vertex_lon_lat, 2, values, ierr)
+    call get_real_table(self%handle, c_vertex_lon_lat, 2, values, ierr)
   end function
 
   function cell_offsets(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int64_t), pointer :: values(:)
-    call get_offsets(self, c_cell_offsets, values, ierr)
+    call get_offsets(self%handle, c_cell_offsets, values, ierr)
   end function
 
   function edges_on_cell(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:)
-    call get_ids(self, c_edges_on_cell, values, ierr)
+    call get_ids(self%handle, c_edges_on_cell, values, ierr)
   end function
 
   function vertices_on_cell(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:)
-    call get_ids(self, c_vertices_on_cell, values, ierr)
+    call get_ids(self%handle, c_vertices_on_cell, values, ierr)
   end function
 
   function cells_on_cell(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:)
-    call get_ids(self, c_cells_on_cell, values, ierr)
+    call get_ids(self%handle, c_cells_on_cell, values, ierr)
   end function
 
   function cells_on_edge(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:, :)
-    call get_id_table(self, c_cells_on_edge, 2, values, ierr)
+    call get_id_table(self%handle, c_cells_on_edge, 2, values, ierr)
   end function
 
   function vertices_on_edge(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:, :)
-    call get_id_table(self, c_vertices_on_edge, 2, values, ierr)
+    call get_id_table(self%handle, c_vertices_on_edge, 2, values, ierr)
   end function
 
   function cells_on_vertex(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:, :)
-    call get_id_table(self, c_cells_on_vertex, 3, values, ierr)
+    call get_id_table(self%handle, c_cells_on_vertex, 3, values, ierr)
   end function
 
   function edges_on_vertex(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:, :)
-    call get_id_table(self, c_edges_on_vertex, 3, values, ierr)
+    call get_id_table(self%handle, c_edges_on_vertex, 3, values, ierr)
   end function
 
   function edge_offsets(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int64_t), pointer :: values(:)
-    call get_offsets(self, c_edge_offsets, values, ierr)
+    call get_offsets(self%handle, c_edge_offsets, values, ierr)
   end function
 
   function edges_on_edge(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:)
-    call get_ids(self, c_edges_on_edge, values, ierr)
+    call get_ids(self%handle, c_edges_on_edge, values, ierr)
   end function
 
   function weights_on_edge(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_weights_on_edge, values, ierr)
+    call get_reals(self%handle, c_weights_on_edge, values, ierr)
   end function
 
   function cell_area_m2(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_cell_area_m2, values, ierr)
+    call get_reals(self%handle, c_cell_area_m2, values, ierr)
   end function
 
   function cell_spacing_m(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_cell_spacing_m, values, ierr)
+    call get_reals(self%handle, c_cell_spacing_m, values, ierr)
   end function
 
   function cell_ring(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:)
-    call get_ids(self, c_cell_ring, values, ierr)
+    call get_ids(self%handle, c_cell_ring, values, ierr)
   end function
 
   function edge_spacing_m(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_edge_spacing_m, values, ierr)
+    call get_reals(self%handle, c_edge_spacing_m, values, ierr)
   end function
 
   function triangle_area_m2(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_triangle_area_m2, values, ierr)
+    call get_reals(self%handle, c_triangle_area_m2, values, ierr)
   end function
 
   function kite_area_m2(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:, :)
-    call get_real_table(self, c_kite_area_m2, 3, values, ierr)
+    call get_real_table(self%handle, c_kite_area_m2, 3, values, ierr)
   end function
 
   function cell_distance_m(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_cell_distance_m, values, ierr)
+    call get_reals(self%handle, c_cell_distance_m, values, ierr)
   end function
 
   function vertex_distance_m(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_vertex_distance_m, values, ierr)
+    call get_reals(self%handle, c_vertex_distance_m, values, ierr)
   end function
 
   function edge_angle_rad(self, ierr) result(values)
     class(delos_grid_arrays), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_reals(self, c_edge_angle_rad, values, ierr)
+    call get_reals(self%handle, c_edge_angle_rad, values, ierr)
   end function
 
   ! --- base 1

@@ -1,16 +1,15 @@
 ! SPDX-License-Identifier: BSD-3-Clause
 ! The vertical of a grid of module delos.
 module delos_levels
-  use, intrinsic :: iso_c_binding, only: c_associated, c_double, c_f_pointer, c_int, c_int32_t, &
-    c_int64_t, c_ptr
-  use delos_arrays, only: delos_grid_arrays
-  use delos_binding, only: array_getter, level_filler, c_level_interface_m, c_max_level_cell, &
-    c_bottom_depth_m, c_ground_height_m, c_ground_influence, c_layer_thickness_m, c_interface_height_m
-  use delos_binding, only: DELOS_SUCCESS
+  use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t, c_ptr
+  use delos_arrays, only: delos_grid_arrays, get_ids, get_reals
+  use delos_binding, only: c_bottom_depth_m, c_ground_height_m, c_ground_influence, &
+    c_interface_height_m, c_layer_thickness_m, c_level_interface_m, c_max_level_cell, level_filler
   use delos_objects, only: report_status
   implicit none
   private
   public :: delos_grid_levels
+  public :: fill_levels ! for the modules of delos
 
   ! Without a section `layers` the pointers are not associated and the tables have no levels. Metres.
   type, abstract, extends(delos_grid_arrays) :: delos_grid_levels
@@ -42,94 +41,73 @@ contains
     class(delos_grid_levels), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_levels(self, c_level_interface_m, values, ierr)
+    call get_reals(self%handle, c_level_interface_m, values, ierr)
   end function
 
   function bottom_depth_m(self, ierr) result(values)
     class(delos_grid_levels), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_levels(self, c_bottom_depth_m, values, ierr)
+    call get_reals(self%handle, c_bottom_depth_m, values, ierr)
   end function
 
   function ground_height_m(self, ierr) result(values)
     class(delos_grid_levels), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_levels(self, c_ground_height_m, values, ierr)
+    call get_reals(self%handle, c_ground_height_m, values, ierr)
   end function
 
   function ground_influence(self, ierr) result(values)
     class(delos_grid_levels), intent(in) :: self
     integer, intent(out), optional :: ierr
     real(c_double), pointer :: values(:)
-    call get_levels(self, c_ground_influence, values, ierr)
+    call get_reals(self%handle, c_ground_influence, values, ierr)
   end function
 
   function max_level_cell(self, ierr) result(values)
     class(delos_grid_levels), intent(in) :: self
     integer, intent(out), optional :: ierr
     integer(c_int32_t), pointer :: values(:)
-    type(c_ptr) :: first
-    integer(c_int64_t) :: n
-    integer(c_int) :: status
-    status = c_max_level_cell(self%handle, first, n)
-    values => null()
-    if (status == DELOS_SUCCESS) then
-      if (c_associated(first)) call c_f_pointer(first, values, [n])
-    end if
-    call report_status(status, ierr)
+    call get_ids(self%handle, c_max_level_cell, values, ierr)
   end function
 
   subroutine layer_thickness_m(self, values, ierr)
     class(delos_grid_levels), intent(in) :: self
     real(c_double), allocatable, intent(out) :: values(:, :)
     integer, intent(out), optional :: ierr
-    call fill_levels(self, c_layer_thickness_m, 0, values, ierr)
+    call fill_levels(self%handle, c_layer_thickness_m, n_rows(self, 0), n_columns(self), values, ierr)
   end subroutine
 
   subroutine interface_height_m(self, values, ierr)
     class(delos_grid_levels), intent(in) :: self
     real(c_double), allocatable, intent(out) :: values(:, :)
     integer, intent(out), optional :: ierr
-    call fill_levels(self, c_interface_height_m, 1, values, ierr)
+    call fill_levels(self%handle, c_interface_height_m, n_rows(self, 1), n_columns(self), values, ierr)
   end subroutine
 
-  subroutine get_levels(self, getter, values, ierr)
+  ! Levels of the tables and `more`; none without layers.
+  integer function n_rows(self, more)
     class(delos_grid_levels), intent(in) :: self
-    procedure(array_getter) :: getter
-    real(c_double), pointer, intent(out) :: values(:)
-    integer, intent(out), optional :: ierr
-    type(c_ptr) :: first
-    integer(c_int64_t) :: n
-    integer(c_int) :: status
-    status = getter(self%handle, first, n)
-    values => null()
-    if (status == DELOS_SUCCESS) then
-      if (c_associated(first)) call c_f_pointer(first, values, [n])
-    end if
-    call report_status(status, ierr)
-  end subroutine
-
-  ! more: interfaces beyond the levels.
-  subroutine fill_levels(self, filler, more, values, ierr)
-    class(delos_grid_levels), intent(in) :: self
-    procedure(level_filler) :: filler
     integer, intent(in) :: more
+    n_rows = self%n_levels()
+    if (n_rows > 0) n_rows = n_rows + more
+  end function
+
+  integer function n_columns(self)
+    class(delos_grid_levels), intent(in) :: self
+    n_columns = 0
+    if (self%n_levels() > 0) n_columns = int(self%n_cells())
+  end function
+
+  ! A new table of so many rows and columns.
+  subroutine fill_levels(handle, filler, n_rows, n_columns, values, ierr)
+    type(c_ptr), intent(in) :: handle
+    procedure(level_filler) :: filler
+    integer, intent(in) :: n_rows, n_columns
     real(c_double), allocatable, intent(out) :: values(:, :)
     integer, intent(out), optional :: ierr
-    real(c_double), pointer :: bottom_m(:), ground_m(:)
-    integer :: n, n_columns
-    n = self%n_levels(ierr)
-    n_columns = 0
-    if (n > 0) then
-      bottom_m => self%bottom_depth_m()
-      ground_m => self%ground_height_m()
-      if (associated(bottom_m)) n_columns = size(bottom_m)
-      if (associated(ground_m)) n_columns = size(ground_m)
-      n = n + more
-    end if
-    allocate(values(n, n_columns))
-    if (n > 0) call report_status(filler(self%handle, values, size(values, kind=c_int64_t)), ierr)
+    allocate (values(n_rows, n_columns))
+    call report_status(filler(handle, values, size(values, kind=c_int64_t)), ierr)
   end subroutine
 end module delos_levels

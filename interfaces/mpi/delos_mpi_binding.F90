@@ -4,6 +4,7 @@
 module delos_mpi_binding
   use, intrinsic :: iso_c_binding, only: c_char, c_double, c_funptr, c_int, c_int32_t, &
     c_int64_t, c_null_funptr, c_null_ptr, c_ptr
+  use delos_binding, only: array_getter, level_filler
   implicit none
   public
   private :: c_char, c_double, c_funptr, c_int, c_int32_t, c_int64_t, c_null_funptr, c_null_ptr, &
@@ -18,28 +19,12 @@ module delos_mpi_binding
   end type
 
   abstract interface
-    function array_getter(grid, values, n) bind(c) result(status)
-      import :: c_ptr, c_int, c_int64_t
-      type(c_ptr), value :: grid
-      type(c_ptr), intent(out) :: values
-      integer(c_int64_t), intent(out) :: n
-      integer(c_int) :: status
-    end function
-
     function list_getter(grid, location, values, n) bind(c) result(status)
       import :: c_ptr, c_int, c_int64_t
       type(c_ptr), value :: grid
       integer(c_int), value :: location
       type(c_ptr), intent(out) :: values
       integer(c_int64_t), intent(out) :: n
-      integer(c_int) :: status
-    end function
-
-    function level_filler(grid, values, n) bind(c) result(status)
-      import :: c_double, c_int, c_int64_t, c_ptr
-      type(c_ptr), value :: grid
-      real(c_double), intent(inout) :: values(*)
-      integer(c_int64_t), value :: n
       integer(c_int) :: status
     end function
 

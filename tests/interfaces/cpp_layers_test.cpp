@@ -3,13 +3,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 #include <delos/delos.hpp>
 #include <numeric>
 #include <string>
 #include <vector>
 
+#include "support/sent_part.hpp"
+
 using delos::Location;
+using delos::testing::same;
+using delos::testing::sent;
 
 namespace {
 
@@ -20,22 +23,6 @@ delos::Grid grid_with(const char* layers) {
   const std::string base = "generator: icosahedral\nsubdivisions: 8\ndata_path: [/none]\n";
   return delos::generate(delos::Config::from_text(base + "layers: " + layers + "\n"),
                          {.threads = 1});
-}
-
-/// The part as it comes out at another process.
-delos::LocalGrid sent(const delos::LocalGrid& part) {
-  const auto buffers = part.buffers();
-  auto next = buffers.begin();
-  return delos::LocalGrid::received(part.layout(), [&](std::span<std::byte> bytes) {
-    REQUIRE(bytes.size() == next->size());
-    if (!bytes.empty()) std::memcpy(bytes.data(), next->data(), bytes.size());
-    ++next;
-  });
-}
-
-template <class Values>
-bool same(const Values& a, const Values& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 /// The values of `whole`, `width` a cell, that a part must have.

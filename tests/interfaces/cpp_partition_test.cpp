@@ -2,7 +2,6 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <delos/delos.hpp>
 #include <fstream>
 #include <iterator>
@@ -10,30 +9,17 @@
 #include <string>
 #include <vector>
 
+#include "support/sent_part.hpp"
 #include "support/temporary_folder.hpp"
 
 using delos::Location;
+using delos::testing::same;
+using delos::testing::sent;
 
 namespace {
 
 delos::Grid small_grid() {
   return delos::generate(delos::Config::from_text("generator: icosahedral\nsubdivisions: 8\n"));
-}
-
-/// The part as it comes out at another process.
-delos::LocalGrid sent(const delos::LocalGrid& part) {
-  const auto buffers = part.buffers();
-  auto next = buffers.begin();
-  return delos::LocalGrid::received(part.layout(), [&](std::span<std::byte> bytes) {
-    REQUIRE(bytes.size() == next->size());
-    if (!bytes.empty()) std::memcpy(bytes.data(), next->data(), bytes.size());
-    ++next;
-  });
-}
-
-template <class Values>
-bool same(const Values& a, const Values& b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end());
 }
 
 }  // namespace
