@@ -11,6 +11,7 @@
 
 #include "core/error.hpp"
 #include "io/names.hpp"
+#include "io/shapefile.hpp"
 
 namespace delos {
 namespace {
@@ -180,6 +181,11 @@ std::vector<Json> features_of(Json root, const std::string& path) {
   return {Json{{"type", "Feature"}, {"geometry", std::move(root)}}};
 }
 
+/// Of a GeoJSON file or a shapefile.
+std::vector<Json> features_in(const std::string& path) {
+  return is_shapefile(path) ? shapefile_features(path) : features_of(parse_file(path), path);
+}
+
 [[noreturn]] void refuse_unknown_name(const std::string& path, const std::string& wanted,
                                       const std::vector<std::string>& names) {
   const std::string nearest = nearest_name(wanted, names);
@@ -196,10 +202,11 @@ std::vector<std::string> labels_of(const Json& feature) {
   if (const std::string name = name_of(feature); !name.empty()) labels.push_back(name);
   const Json& properties =
       feature.is_object() && feature.contains("properties") ? feature["properties"] : Json();
-  if (!properties.is_object() || !properties.contains("tags") || !properties["tags"].is_string()) {
-    return labels;
+  std::string rest;
+  for (const char* const key : {"tags", "Tags", "TAGS"}) {
+    if (!properties.is_object() || !properties.contains(key)) continue;
+    if (properties[key].is_string()) rest = properties[key];
   }
-  std::string rest = properties["tags"];
   while (!rest.empty()) {
     const std::size_t end = std::min(rest.find(';'), rest.size());
     if (end > 0) labels.push_back(rest.substr(0, end));
@@ -245,7 +252,7 @@ const Json& geometry_of(const Json& feature, const std::string& where) {
 }  // namespace
 
 PolygonSet read_polygons(const std::string& path, const std::string& feature_name) {
-  const std::vector<Json> features = features_of(parse_file(path), path);
+  const std::vector<Json> features = features_in(path);
   PolygonSet polygons;
   polygons.source = feature_name.empty() ? path : path + ":" + feature_name;
   std::vector<std::string> names;
@@ -265,7 +272,7 @@ PolygonSet read_polygons(const std::string& path, const std::string& feature_nam
 }
 
 std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select) {
-  const std::vector<Json> features = features_of(parse_file(path), path);
+  const std::vector<Json> features = features_in(path);
   std::vector<LonLatLine> lines;
   std::vector<std::string> known;
   bool found = select.empty();
@@ -341,7 +348,7 @@ void add_line_features(const Json& geometry, const std::string& where, int nesti
 }  // namespace
 
 std::vector<LineFeature> read_line_features(const std::string& path) {
-  const std::vector<Json> features = features_of(parse_file(path), path);
+  const std::vector<Json> features = features_in(path);
   std::vector<LineFeature> lines;
   for (std::size_t i = 0; i < features.size(); ++i) {
     const std::string where = feature_where(path, i, name_of(features[i]));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// Regions from GeoJSON files (RFC 7946).
+// Regions from GeoJSON files (RFC 7946), or from shapefiles (*.shp, see shapefile.hpp).
 #include <array>
 #include <string>
 #include <vector>

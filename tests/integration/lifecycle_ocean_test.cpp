@@ -85,6 +85,26 @@ std::int64_t n_links_across(const Grid& grid, const LonLatLine& line) {
 
 }  // namespace
 
+TEST_CASE("Natural Earth's land makes the ocean of the bathymetry within 1 %, passages open") {
+  const std::string transects = test_data("mpas_transects_passages.geojson");
+  const std::string polygons = test_data("land_ne110m.geojson");
+  if (transects.empty() || polygons.empty() || !has_etopo5()) return;
+  const std::string yaml =
+      "sizing: {sources: [{type: constant, spacing: 120 km}]}\ndomain: {passages: " +
+      lines_of(transects, "Critical_Passage") +
+      ", blockages: " + lines_of(transects, "Critical_Land_Blockage");
+  const Product land = made(yaml + ", land: {file: " + polygons + "}}\n", 2);
+  const Product sea = made(yaml + "}\n", 2);
+  const auto of = [](const Product& product, const char* key) {
+    return static_cast<double>(value_of<std::int64_t>(product.report, "domain", key));
+  };
+  CHECK(of(land, "n_passages_open") == 19);
+  CHECK(of(land, "n_blockages_shut") == 21);
+  CHECK(of(land, "n_cells") == doctest::Approx(of(sea, "n_cells")).epsilon(0.01));
+  CHECK(value_of<double>(land.report, "domain", "area_m2") ==
+        doctest::Approx(value_of<double>(sea.report, "domain", "area_m2")).epsilon(0.01));
+}
+
 TEST_CASE("the world ocean at 60 km: passages open, blockages shut, cells and area within 1 %") {
   const std::string transects = test_data("mpas_transects_passages.geojson");
   if (transects.empty() || !has_etopo5()) return;

@@ -49,6 +49,7 @@ HOMES = [
     ("cairo", r"\bcairo_\w+|#include\s*[<\"]cairo", ["component/pictures/canvas.cpp"]),
     ("OpenSSL", r"\bEVP_\w+|#include\s*[<\"]openssl", ["component/core/hash.cpp"]),
     ("METIS", r"\bMETIS_\w+|#include\s*[<\"]metis", ["component/partition/kway.cpp"]),
+    ("shapelib", r"\bSHP\w+\s*\(|#include\s*[<\"]shapefil", ["component/io/shapefile.cpp"]),
     ("MPI", r"\bMPI_\w+|#include\s*[<\"]mpi\.h[>\"]", ["interfaces/mpi/", "interfaces/esmf/team_mpi.cpp"]),
     ("CLI11", r"\bCLI::|#include\s*[<\"]CLI/", ["component/app/"]),
 ]
@@ -190,6 +191,7 @@ PLANTED = [
     ("cairo", "component/pictures/bad.cpp", "cairo_t* c;\nvoid f() { cairo_fill(c); }\n"),
     ("OpenSSL", "component/io/bad.cpp", "#include <openssl/evp.h>\n"),
     ("METIS", "component/partition/bad.cpp", "#include <metis.h>\n"),
+    ("shapelib", "component/io/bad.cpp", "#include <shapefil.h>\n"),
     ("MPI", "interfaces/cpp/bad.cpp", "#include <mpi.h>\n"),
     ("CLI11", "component/lifecycle/bad.cpp", "#include <CLI/CLI.hpp>\n"),
     ("libm", "component/sizing/bad.cpp", "double f(double x) { return std::sin(x); }\n"),

@@ -5,12 +5,12 @@
 # The lists:
 delos_build_packages=(g++ cmake ninja-build pkg-config libeigen3-dev libtbb-dev libssl-dev
   libyaml-cpp-dev nlohmann-json3-dev libcli11-dev libnetcdf-dev libcairo2-dev fonts-dejavu-core
-  libmetis-dev)
+  libmetis-dev libshp-dev)
 delos_data_packages=(ferret-datasets)
 delos_test_packages=(doctest-dev python3 gfortran udunits-bin mpich libmpich-dev)
 delos_ci_packages=(clang clang-tidy-14 clang-format-14 libclang-rt-14-dev ccache git)
 # Not python3-vtk9: it brings Open MPI's mpiexec and mpicc, which take the place of MPICH's.
-delos_referee_packages=(valgrind cdo gmsh python3-gmsh python3-meshio)
+delos_referee_packages=(valgrind cdo gmsh python3-gmsh python3-meshio libmagics++-data)
 
 has_package() {
   [[ $(dpkg-query -W -f '${db:Status-Status}' "$1" 2>/dev/null) == installed ]]
