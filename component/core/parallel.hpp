@@ -35,6 +35,13 @@ class Executor {
   /// Runs body(block) for block in [0, n_blocks), each once, in any order. The first exception
   /// that a body throws is rethrown here after the others have ended.
   void run_blocks(std::int64_t n_blocks, const std::function<void(std::int64_t)>& body);
+  /// Runs make(i) in the order of `order`, a permutation of [0, n), several at once, and take(i)
+  /// for i = 0, 1, ..., n - 1, one at a time, as soon as make(0) ... make(i) have ended: while some
+  /// threads make, one takes. What the takes see depends on neither `order` nor the threads. The
+  /// first exception is rethrown as by run_blocks.
+  void run_pipeline(std::span<const std::int64_t> order,
+                    const std::function<void(std::int64_t)>& make,
+                    const std::function<void(std::int64_t)>& take);
 
  private:
   struct Impl;

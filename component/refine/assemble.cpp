@@ -8,17 +8,10 @@
 namespace delos {
 namespace {
 
-constexpr std::int64_t kTileGrain = 1;     // a tile is some ten thousand triangles
 constexpr std::int64_t kSideGrain = 4096;  // half-segments a task: about a quarter millisecond
 constexpr double kRoom = 1.03;             // the count is within 3 % of the expected one
 
 }  // namespace
-
-/// Where a tile's part of the mesh begins.
-struct Assembler::Place {
-  std::size_t tile;
-  std::int64_t vertex, triangle;
-};
 
 Assembler::Assembler(parallel::Executor& exec, const Skeleton& skeleton, double expected_vertices)
     : exec_(exec), skeleton_(skeleton), at_half_(2 * skeleton.segments.size()) {
@@ -28,43 +21,23 @@ Assembler::Assembler(parallel::Executor& exec, const Skeleton& skeleton, double 
   out_.mesh.vertices = skeleton.mesh.vertices;
 }
 
-void Assembler::append(const std::vector<TileMesh>& tiles) {
-  const auto n_tiles = static_cast<std::int64_t>(tiles.size());
-  Mesh& mesh = out_.mesh;
-  std::vector<Place> places;
-  auto n_vertices = static_cast<std::int64_t>(mesh.vertices.size());
-  auto n_triangles = static_cast<std::int64_t>(mesh.triangles.size());
-  for (const TileMesh& tile : tiles) {
-    places.push_back({n_tiles_++, n_vertices, n_triangles});
-    for (const Index tri : tile.off_bounds) {
-      out_.off_bounds.push_back(static_cast<Index>(n_triangles) + tri);
-    }
-    n_vertices += static_cast<std::int64_t>(tile.inserted.size());
-    n_triangles += static_cast<std::int64_t>(tile.triangles.size());
-  }
-  mesh.vertices.resize(at(n_vertices));
-  mesh.triangles.resize(at(n_triangles));
-  parallel::for_index(exec_, n_tiles, kTileGrain,
-                      [&](std::int64_t i) { write(tiles[at(i)], places[at(i)]); });
-}
-
 // What lies across a side of the tile stays kNone until finish() knows the other tile.
-void Assembler::write(const TileMesh& tile, const Place& place) {
+void Assembler::append(const TileMesh& tile) {
   Mesh& mesh = out_.mesh;
-  const std::vector<Index>& border = skeleton_.tile_half_segments[place.tile];
+  const std::vector<Index>& border = skeleton_.tile_half_segments[n_tiles_++];
   const auto n_shared = static_cast<Index>(tile.skeleton_vertices.size());
-  const Index vertex_shift = static_cast<Index>(place.vertex) - n_shared;
-  const auto triangle_shift = static_cast<Index>(place.triangle);
-  std::copy(tile.inserted.begin(), tile.inserted.end(), mesh.vertices.begin() + place.vertex);
-  for (std::size_t i = 0; i < tile.triangles.size(); ++i) {
-    Triangle tri = tile.triangles[i];
+  const Index vertex_shift = mesh.n_vertices() - n_shared;
+  const Index triangle_shift = mesh.n_triangles();
+  mesh.vertices.insert(mesh.vertices.end(), tile.inserted.begin(), tile.inserted.end());
+  for (Triangle tri : tile.triangles) {
     for (std::size_t k = 0; k < 3; ++k) {
       const Index v = tri.vertex[k], n = tri.neighbour[k];
       tri.vertex[k] = v < n_shared ? tile.skeleton_vertices[at(v)] : v + vertex_shift;
       tri.neighbour[k] = n >= 0 ? n + triangle_shift : kNone;
     }
-    mesh.triangles[at(place.triangle) + i] = tri;
+    mesh.triangles.push_back(tri);
   }
+  for (const Index tri : tile.off_bounds) out_.off_bounds.push_back(triangle_shift + tri);
   for (std::size_t slot = 0; slot < border.size(); ++slot) {
     const TriangleSide& local = tile.border[slot];
     at_half_[at(border[slot])] = {triangle_shift + local.triangle, local.side};

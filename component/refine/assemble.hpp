@@ -14,20 +14,17 @@ struct Assembly {
   std::vector<Index> off_bounds;      ///< those that break a bound, ascending
 };
 
-/// Takes the tiles a batch at a time, so that only one batch is in memory twice.
+/// Takes one tile after the other, so that few of them are in memory twice.
 class Assembler {
  public:
   /// Begins with the skeleton's vertices and reserves room for about `expected_vertices`.
   Assembler(parallel::Executor& exec, const Skeleton& skeleton, double expected_vertices);
-  /// Appends the next tiles of the skeleton's order.
-  void append(const std::vector<TileMesh>& tiles);
+  /// Appends the next tile of the skeleton's order.
+  void append(const TileMesh& tile);
   /// Links the triangles across the tiles' sides.
   Assembly finish();
 
  private:
-  struct Place;
-  void write(const TileMesh& tile, const Place& place);
-
   parallel::Executor& exec_;
   const Skeleton& skeleton_;
   std::size_t n_tiles_ = 0;            ///< appended so far

@@ -2,6 +2,7 @@
 #include "refine/refine.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <numeric>
 #include <utility>
 
@@ -17,8 +18,7 @@
 namespace delos {
 namespace {
 
-constexpr double kMaxVertices = 7e8;       // 2 n - 4 triangles must fit 32-bit ids, with room
-constexpr std::int64_t kTilesPerTask = 1;  // a tile takes some milliseconds
+constexpr double kMaxVertices = 7e8;  // 2 n - 4 triangles must fit 32-bit ids, with room
 
 void check_options(const RefineOptions& options) {
   DELOS_CHECK(options.radius_edge >= 1.0, ErrorKind::config,
@@ -31,35 +31,37 @@ void check_options(const RefineOptions& options) {
               ": must be >= 500 (36000 is the default).");
 }
 
-// Tiles of one batch: enough for every thread to have its share at any moment, few enough to be a
-// small part of the mesh. One thread needs none to choose from, and what it has just made is in its
-// cache. The result does not depend on it.
-std::size_t batch_tiles(const parallel::Executor& exec) {
-  constexpr std::size_t kTilesPerThread = 24;
+// The order in which the tiles are begun. The large ones of some tiles come first, so that no
+// thread is left alone with one at the end; tiles of about one size in their order, since what has
+// just been made is appended to the mesh while it is in the cache, and its memory serves again. One
+// thread leaves nobody alone. The result does not depend on it.
+std::vector<std::int64_t> order_of_tiles(const parallel::Executor& exec, const Skeleton& skeleton) {
+  constexpr std::size_t kTilesPerThread = 24;  // a small part of the mesh waits to be appended
+  const std::size_t n_tiles = skeleton.tile_triangles.size();
+  std::vector<std::int64_t> order(n_tiles);
+  std::iota(order.begin(), order.end(), std::int64_t{0});
   const auto n_threads = static_cast<std::size_t>(exec.n_threads());
-  return n_threads == 1 ? 1 : kTilesPerThread * n_threads;
-}
-
-std::vector<TileMesh> refine_batch(Context& context, const FrontInput& input, std::size_t first,
-                                   std::vector<FrontWorkspace>& scratch) {
-  const std::size_t n_tiles = input.skeleton.tile_triangles.size();
-  std::vector<TileMesh> tiles(std::min(batch_tiles(context.exec), n_tiles - first));
-  // The largest first, so that no thread is left alone with one at the end.
-  std::vector<std::size_t> order(tiles.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return input.skeleton.tile_half_segments[first + a].size() >
-           input.skeleton.tile_half_segments[first + b].size();
-  });
-  parallel::for_index(
-      context.exec, static_cast<std::int64_t>(tiles.size()), kTilesPerTask, [&](std::int64_t i) {
-        context.monitor.check_cancelled();
-        const std::size_t tile = order[static_cast<std::size_t>(i)];
-        tiles[tile] = refine_tile(input, first + tile,
-                                  scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
-        context.monitor.advance(static_cast<std::int64_t>(tiles[tile].inserted.size()));
-      });
-  return tiles;
+  if (n_threads == 1) return order;
+  // A tile has about as many vertices as its border squared.
+  std::size_t most = 1;
+  const auto square = [&](std::int64_t tile) {
+    const std::size_t n = skeleton.tile_half_segments[static_cast<std::size_t>(tile)].size();
+    return std::max<std::size_t>(n * n, 1);
+  };
+  for (const std::int64_t tile : order) most = std::max(most, square(tile));
+  std::vector<int> halvings(n_tiles);
+  for (const std::int64_t tile : order) {
+    halvings[static_cast<std::size_t>(tile)] = std::bit_width(most / square(tile));
+  }
+  const std::size_t window = kTilesPerThread * n_threads;
+  for (std::size_t first = 0; first < n_tiles; first += window) {
+    const auto begin = order.begin() + static_cast<std::ptrdiff_t>(first);
+    const auto end = order.begin() + static_cast<std::ptrdiff_t>(std::min(first + window, n_tiles));
+    std::stable_sort(begin, end, [&](std::int64_t a, std::int64_t b) {
+      return halvings[static_cast<std::size_t>(a)] < halvings[static_cast<std::size_t>(b)];
+    });
+  }
+  return order;
 }
 
 Assembly refine_tiles(Context& context, const FrontInput& input, const Tiling& tiling) {
@@ -68,12 +70,19 @@ Assembly refine_tiles(Context& context, const FrontInput& input, const Tiling& t
   double most = 0.0;
   for (const Tile& tile : tiling.tiles) most = std::max(most, tile.expected_vertices);
   for (FrontWorkspace& workspace : scratch) workspace.reserve(most);
-  const std::size_t n_tiles = input.skeleton.tile_triangles.size();
-  for (std::size_t first = 0; first < n_tiles;) {
-    const std::vector<TileMesh> tiles = refine_batch(context, input, first, scratch);
-    assembler.append(tiles);
-    first += tiles.size();
-  }
+  std::vector<TileMesh> tiles(input.skeleton.tile_triangles.size());
+  context.exec.run_pipeline(
+      order_of_tiles(context.exec, input.skeleton),
+      [&](std::int64_t i) {
+        context.monitor.check_cancelled();
+        TileMesh& tile = tiles[static_cast<std::size_t>(i)];
+        tile = refine_tile(input, static_cast<std::size_t>(i),
+                           scratch[static_cast<std::size_t>(context.exec.thread_slot())]);
+        context.monitor.advance(static_cast<std::int64_t>(tile.inserted.size()));
+      },
+      [&](std::int64_t i) {
+        assembler.append(std::exchange(tiles[static_cast<std::size_t>(i)], {}));
+      });
   return assembler.finish();
 }
 

@@ -3,6 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
+#include "core/error.hpp"
 #include "core/hash.hpp"
 
 using namespace delos;
@@ -45,4 +48,44 @@ TEST_CASE("the smallest of all threads' values remains, none counting as the lar
     if (slot == kNone || value < slot) slot = value;
   }
   CHECK(slots == wanted);
+}
+
+TEST_CASE("a pipeline takes in ascending order what is made in any") {
+  constexpr std::int64_t kItems = 500;
+  for (const int threads : {1, 2, 5}) {
+    CAPTURE(threads);
+    parallel::Executor exec(threads);
+    for (const bool backwards : {false, true}) {
+      std::vector<std::int64_t> order(kItems);
+      for (std::int64_t i = 0; i < kItems; ++i) {
+        order[static_cast<std::size_t>(i)] = backwards ? kItems - 1 - i : i;
+      }
+      std::vector<std::uint64_t> made(kItems, 0), taken;
+      exec.run_pipeline(
+          order,
+          [&](std::int64_t i) {
+            made[static_cast<std::size_t>(i)] = hash64(7, static_cast<std::uint64_t>(i));
+          },
+          [&](std::int64_t i) { taken.push_back(made[static_cast<std::size_t>(i)]); });
+      CHECK(taken.size() == made.size());
+      CHECK(taken == made);
+      CHECK(std::find(taken.begin(), taken.end(), 0) == taken.end());
+    }
+    exec.run_pipeline(
+        {}, [](std::int64_t) { FAIL("made"); }, [](std::int64_t) { FAIL("taken"); });
+  }
+}
+
+TEST_CASE("an exception in a pipeline reaches its caller") {
+  const std::vector<std::int64_t> order = {0, 1, 2, 3, 4, 5, 6, 7};
+  for (const int threads : {1, 4}) {
+    parallel::Executor exec(threads);
+    const auto fail_at = [](std::int64_t which) {
+      return [=](std::int64_t i) {
+        if (i == which) throw Error(ErrorKind::input, "no");
+      };
+    };
+    CHECK_THROWS_AS(exec.run_pipeline(order, fail_at(3), fail_at(-1)), Error);
+    CHECK_THROWS_AS(exec.run_pipeline(order, fail_at(-1), fail_at(5)), Error);
+  }
 }
