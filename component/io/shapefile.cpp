@@ -62,7 +62,7 @@ struct Closer {
 std::string beside(const std::string& path, const char* lower, const char* upper) {
   std::error_code ignored;
   for (const char* const ending : {lower, upper}) {
-    const std::string candidate = std::filesystem::path(path).replace_extension(ending).string();
+    std::string candidate = std::filesystem::path(path).replace_extension(ending).string();
     if (std::filesystem::exists(candidate, ignored)) return candidate;
   }
   return "";

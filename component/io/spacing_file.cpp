@@ -5,25 +5,22 @@
 
 namespace delos {
 
-using netcdf::DimensionId;
-using netcdf::Type;
-using netcdf::VariableId;
-
 void write_spacing(const std::string& path, const LatLonField& spacing_m,
                    const Provenance& provenance, netcdf::Format format) {
   AtomicFile target(path, spacing_m.values.size() * sizeof(double));
   target.fill([&](const std::string& temporary) {
     netcdf::Writer file(temporary, format);
-    const DimensionId lat = file.define_dimension("lat", at(spacing_m.n_rows()));
-    const DimensionId lon = file.define_dimension("lon", at(spacing_m.n_lon));
-    const VariableId spacing = file.define_variable("spacing", Type::float64, {lat, lon});
+    const netcdf::DimensionId lat = file.define_dimension("lat", at(spacing_m.n_rows()));
+    const netcdf::DimensionId lon = file.define_dimension("lon", at(spacing_m.n_lon));
+    const netcdf::VariableId spacing =
+        file.define_variable("spacing", netcdf::Type::float64, {lat, lon});
     file.attribute(spacing, "long_name", "wanted edge length of the triangulation");
     file.attribute(spacing, "units", "m");
     file.compress(spacing, 1);
-    const VariableId lat_id = file.define_variable("lat", Type::float64, {lat});
+    const netcdf::VariableId lat_id = file.define_variable("lat", netcdf::Type::float64, {lat});
     file.attribute(lat_id, "standard_name", "latitude");
     file.attribute(lat_id, "units", "degrees_north");
-    const VariableId lon_id = file.define_variable("lon", Type::float64, {lon});
+    const netcdf::VariableId lon_id = file.define_variable("lon", netcdf::Type::float64, {lon});
     file.attribute(lon_id, "standard_name", "longitude");
     file.attribute(lon_id, "units", "degrees_east");
     file.attribute(netcdf::kGlobal, "Conventions", "CF-1.8");
