@@ -11,6 +11,7 @@
 #include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/estimate.hpp"
 #include "lifecycle/inputs.hpp"
+#include "lifecycle/mesh_order.hpp"
 #include "lifecycle/outline.hpp"
 #include "lifecycle/region.hpp"
 #include "lifecycle/require.hpp"
@@ -360,6 +361,7 @@ Product generate(Context& context, const Settings& given, const Inputs& inputs, 
       sized.field.evaluate(context.exec, product.mesh.vertices);
     }
   }
+  order_mesh(context, settings, product.mesh, report);
   product.spacing_table_m = std::move(sized.table_m);
   product.spacing = std::move(sized.field);
   finish(context, product, scope, {&inputs, {}, {}, {}});

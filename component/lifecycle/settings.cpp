@@ -233,6 +233,7 @@ OutputSettings read_output(MapReader keys) {
   }
   out.graph = keys.boolean("graph", true);
   out.partitions = read_partitions(keys);
+  out.order = read_cell_order(keys, "order_parts", domain::CellOrder::kept);
   out.report = keys.boolean("report", true);
   out.spacing = keys.boolean("spacing", false);
   out.pictures = keys.strings("pictures", {"globe", "map", "histograms"}, {});
@@ -295,6 +296,19 @@ void read_cut(MapReader& root, Settings& out) {
   }
 }
 
+/// Where the order of the cells is settled by something else.
+void check_order(MapReader& root, const Settings& settings) {
+  if (settings.output.order.kind == domain::CellOrder::kept) return;
+  const auto refuse = [&](const char* reason) {
+    root.fail("output", "order is that of the cells of the whole surface: ", reason,
+              " Remove output.order.");
+  };
+  if (settings.domain) refuse("for a domain set domain.order.");
+  if (settings.region) refuse("cells of a region stand along a Hilbert curve.");
+  if (settings.remesh) refuse("a remesh keeps the numbers of most cells.");
+  if (!settings.constraints.empty()) refuse("points of `constraints` come first.");
+}
+
 }  // namespace
 
 Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
@@ -321,9 +335,11 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   if (out.domain && out.domain->needs_bathymetry()) add_bathymetry(root, out.sizing);
   out.layers = read_layers(root);
   if (out.layers) add_bathymetry(root, out.sizing);
-  out.output = read_output(
-      root.map("output", {"directory", "name", "formats", "graph", "partitions", "partition_method",
-                          "report", "spacing", "pictures", "view", "unit_sphere", "compress"}));
+  out.output =
+      read_output(root.map("output", {"directory", "name", "formats", "graph", "partitions",
+                                      "partition_method", "order", "order_parts", "report",
+                                      "spacing", "pictures", "view", "unit_sphere", "compress"}));
+  check_order(root, out);
   out.require = read_require(root);
   constexpr std::int64_t kMaxThreads = 4096;
   out.threads = static_cast<int>(root.integer("threads", 0, kMaxThreads, "0"));

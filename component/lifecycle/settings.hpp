@@ -63,6 +63,7 @@ struct OutputSettings {
   std::vector<FileKind> more;  ///< other kinds of grid files
   bool graph = false, report = false, spacing = false;
   PartitionWishes partitions;
+  CellOrderSettings order;            ///< of a grid of the whole surface
   std::vector<std::string> pictures;  ///< of globe, map, histograms
   LonLat view{0.0, 0.0};              ///< centre of the globe picture
   bool unit_sphere = false;           ///< MPAS on the unit sphere

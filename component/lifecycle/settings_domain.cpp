@@ -47,21 +47,6 @@ void read_bodies(MapReader& domain, domain::OceanOptions& out) {
   }
 }
 
-void read_order(MapReader& domain, domain::OceanOptions& out) {
-  using domain::CellOrder;
-  constexpr CellOrder kOrders[] = {CellOrder::hilbert, CellOrder::metis, CellOrder::kept};
-  constexpr std::int64_t kMaxParts = 1'000'000;
-  out.order = kOrders[domain.choice("order", {"hilbert", "metis", "kept"}, "hilbert")];
-  if (out.order == CellOrder::metis) {
-    if (!domain.has("parts")) {
-      domain.fail("parts", "order: metis needs the number of parts, e.g. parts: 64.");
-    }
-    out.n_parts = domain.integer("parts", 2, kMaxParts);
-  } else if (domain.has("parts")) {
-    domain.fail("parts", "goes with order: metis. Set that, or remove it.");
-  }
-}
-
 }  // namespace
 
 std::optional<DomainSettings> read_domain(MapReader& root) {
@@ -93,7 +78,28 @@ std::optional<DomainSettings> read_domain(MapReader& root) {
   };
   out.options.prune = {removes("bays"), removes("channels")};
   out.fits_coast = domain.boolean("fit_coast", false);
-  read_order(domain, out.options);
+  const CellOrderSettings order = read_cell_order(domain, "parts", domain::CellOrder::hilbert);
+  out.options.order = order.kind;
+  out.options.n_parts = order.n_parts;
+  return out;
+}
+
+CellOrderSettings read_cell_order(MapReader& keys, const char* parts_key,
+                                  domain::CellOrder standard) {
+  using domain::CellOrder;
+  constexpr CellOrder kCellOrders[] = {CellOrder::hilbert, CellOrder::metis, CellOrder::kept};
+  constexpr std::int64_t kMaxParts = 1'000'000;
+  CellOrderSettings out;
+  out.kind = kCellOrders[keys.choice("order", {"hilbert", "metis", "kept"},
+                                     standard == CellOrder::kept ? "kept" : "hilbert")];
+  if (out.kind == CellOrder::metis) {
+    if (!keys.has(parts_key)) {
+      keys.fail(parts_key, "order: metis needs the number of parts, e.g. ", parts_key, ": 64.");
+    }
+    out.n_parts = keys.integer(parts_key, 2, kMaxParts);
+  } else if (keys.has(parts_key)) {
+    keys.fail(parts_key, "goes with order: metis. Set that, or remove it.");
+  }
   return out;
 }
 

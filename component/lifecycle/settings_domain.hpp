@@ -27,6 +27,15 @@ struct DomainSettings {
   bool needs_bathymetry() const { return land.file.empty(); }
 };
 
+struct CellOrderSettings {
+  domain::CellOrder kind = domain::CellOrder::kept;
+  std::int64_t n_parts = 0;  ///< of metis
+};
+
+/// The key `order` and, for metis, the number of parts; `standard` is kept or hilbert.
+CellOrderSettings read_cell_order(MapReader& keys, const char* parts_key,
+                                  domain::CellOrder standard);
+
 /// Nothing without the section. Error(config) as all settings.
 std::optional<DomainSettings> read_domain(MapReader& root);
 
