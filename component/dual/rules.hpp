@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #pragma once
-// How validate.cpp applies its rules.
+// The rules of check_grid, by topic, and how they are applied.
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -56,5 +56,27 @@ class Rules {
   Context& context_;
   std::vector<BrokenRule>& broken_;
 };
+
+/// The error of a yes-or-no rule.
+inline double unless(bool holds) { return holds ? 0.0 : 1.0; }
+
+/// The larger error; a NaN is the largest.
+inline double worse(double a, double b) { return std::isnan(a) || a >= b ? a : b; }
+
+template <class Row>
+bool is_complete(const Row& ids) {
+  return std::find(ids.begin(), ids.end(), kNone) == ids.end();
+}
+
+/// Sizes of the arrays; the others may be asked for when they agree.
+bool has_sizes(const Grid& grid);
+/// Ids in their ranges; the others may be asked for when all are.
+void check_ids(const Grid& grid, Rules& rules);
+/// The lists around cells, edges and vertices agree.
+void check_order(const Grid& grid, Rules& rules);
+/// Positions, lengths and angles.
+void check_geometry(const Grid& grid, double tolerance, Rules& rules);
+void check_areas(Context& context, const Grid& grid, double tolerance, Rules& rules);
+void check_weights(Context& context, const Grid& grid, double tolerance, Rules& rules);
 
 }  // namespace delos::dual

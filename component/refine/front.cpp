@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "refine/room.hpp"
+#include "refine/star_lanes.hpp"
 #include "refine/work_mesh.hpp"
 
 namespace delos {
@@ -22,7 +23,6 @@ constexpr double kNudgeGain = 2.0;       // over their number: the length of the
 constexpr double kNudgeLeast = 0.02;     // a shorter step (times h) is not worth a second cavity
 constexpr double kFlattestBorder = 0.35;  // least height over a constraint side, times its length
 constexpr int kMaxCentreSweeps = 12;      // sweeps of circumcentre insertion; 3 are the most seen
-constexpr std::size_t kLanes = 8;
 
 struct Candidate {
   Index triangle;
@@ -30,67 +30,6 @@ struct Candidate {
 };
 
 Vec3 sub(const Vertex& a, const Vertex& b) { return {a.x - b.x, a.y - b.y, a.z - b.z}; }
-
-// Up to eight triangles (p, i, i + 1) of a star side by side, so that the compiler can use vector
-// registers: the corners less p, and what is computed for each triangle.
-struct StarLanes {
-  alignas(64) double x[kLanes + 1], y[kLanes + 1], z[kLanes + 1], spacing[kLanes + 1];
-};
-struct CircleLanes {
-  alignas(64) double x[kLanes], y[kLanes], z[kLanes], bound[kLanes];  // see WorkTriangle
-  alignas(64) double size_excess[kLanes], edge_excess[kLanes];        // > 0: off the bound
-};
-
-// The same arithmetic as cache_circle() for planes.
-void plane_lanes(const Vertex& p, const StarLanes& s, CircleLanes& out) {
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const double nx = s.y[i] * s.z[i + 1] - s.z[i] * s.y[i + 1];
-    const double ny = s.z[i] * s.x[i + 1] - s.x[i] * s.z[i + 1];
-    const double nz = s.x[i] * s.y[i + 1] - s.y[i] * s.x[i + 1];
-    const double aa = s.x[i] * s.x[i] + s.y[i] * s.y[i] + s.z[i] * s.z[i];
-    const double bb = s.x[i + 1] * s.x[i + 1] + s.y[i + 1] * s.y[i + 1] + s.z[i + 1] * s.z[i + 1];
-    const double inverse = 1.0 / (nx * p.x + ny * p.y + nz * p.z);
-    out.x[i] = nx * inverse;
-    out.y[i] = ny * inverse;
-    out.z[i] = nz * inverse;
-    out.bound[i] = plane_bound(out.x[i], out.y[i], out.z[i], (aa + bb) * inverse);
-  }
-}
-
-// Surface Delaunay balls as Ellipsoid::ball_centre() finds them: from the circumcentre along the
-// normal n to the surface, the outer root of |q + t n|_W = 1, W = diag(1 / r^2).
-void ball_lanes(const Vertex& p, const Vec3& weight, const StarLanes& s, CircleLanes& out) {
-  const double wx = weight.x(), wy = weight.y(), wz = weight.z();
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const double ux = s.x[i], uy = s.y[i], uz = s.z[i];
-    const double vx = s.x[i + 1], vy = s.y[i + 1], vz = s.z[i + 1];
-    const double nx = uy * vz - uz * vy, ny = uz * vx - ux * vz, nz = ux * vy - uy * vx;
-    const double uu = ux * ux + uy * uy + uz * uz, vv = vx * vx + vy * vy + vz * vz;
-    const double half = 0.5 / (nx * nx + ny * ny + nz * nz);
-    // Circumcentre - p = (|u|^2 v x n + |v|^2 n x u) / (2 |n|^2).
-    const double mx = uu * vx - vv * ux, my = uu * vy - vv * uy, mz = uu * vz - vv * uz;
-    const double ox = half * (my * nz - mz * ny), oy = half * (mz * nx - mx * nz);
-    const double oz = half * (mx * ny - my * nx);
-    const double qx = p.x + ox, qy = p.y + oy, qz = p.z + oz;
-    const double a = wx * nx * nx + wy * ny * ny + wz * nz * nz;
-    const double b = wx * nx * qx + wy * ny * qy + wz * nz * qz;
-    const double c = wx * qx * qx + wy * qy * qy + wz * qz * qz - 1.0;
-    const double discriminant = b * b - a * c;
-    const double root = std::sqrt(discriminant > 0.0 ? discriminant : 0.0);
-    const double t = b > 0.0 ? -c / (b + root) : (root - b) / a;
-    // A line that misses the surface belongs to a triangle as large as the body; its direction
-    // stands in.
-    const bool is_hit = discriminant >= 0.0;
-    const double x = is_hit ? qx + t * nx : nx, y = is_hit ? qy + t * ny : ny;
-    const double z = is_hit ? qz + t * nz : nz;
-    const double scale = 1.0 / std::sqrt(wx * x * x + wy * y * y + wz * z * z);
-    out.x[i] = x * scale;
-    out.y[i] = y * scale;
-    out.z[i] = z * scale;
-    const double dx = out.x[i] - p.x, dy = out.y[i] - p.y, dz = out.z[i] - p.z;
-    out.bound[i] = dx * dx + dy * dy + dz * dz;
-  }
-}
 
 }  // namespace
 
@@ -122,8 +61,8 @@ class TileFront {
         cavity_(scratch.cavity),
         queue_(scratch.queue),
         local_of_triangle_(scratch.local_of_triangle),
-        size_factor_(4.0 / 27.0 * input.options.size_ratio * input.options.size_ratio),
-        edge_factor_(4.0 * input.options.radius_edge * input.options.radius_edge) {}
+        bounds_{4.0 / 27.0 * input.options.size_ratio * input.options.size_ratio,
+                4.0 * input.options.radius_edge * input.options.radius_edge} {}
 
   TileMesh run(std::size_t tile) {
     load(tile);
@@ -154,7 +93,6 @@ class TileFront {
   bool border_allows(const Vec3& p) const;
   void insert(const Vertex& p);
   void classify_star(Index centre);
-  void flag_lanes(const Vertex& p, const StarLanes& s, CircleLanes& out) const;
   void queue_fronts();
   void flag(WorkTriangle& tri) const;
   TileMesh take();
@@ -165,7 +103,7 @@ class TileFront {
   std::vector<Candidate>& queue_;
   std::vector<Index>& local_of_triangle_;
   std::vector<Index> skeleton_vertices_;
-  double size_factor_, edge_factor_;  // of the two bounds, squared
+  const BoundFactors bounds_;
 };
 
 void TileFront::load(std::size_t tile) {
@@ -241,8 +179,8 @@ void TileFront::flag(WorkTriangle& tri) const {
   const double h = a.spacing + b.spacing + c.spacing;
   const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), aa = bc.squaredNorm();
   const double product = aa * bb * cc, cross = ab.cross(ac).squaredNorm();
-  if (product > size_factor_ * h * h * cross) tri.stamp |= WorkTriangle::kOverSize;
-  if (product > edge_factor_ * std::min({aa, bb, cc}) * cross) {
+  if (product > bounds_.size * h * h * cross) tri.stamp |= WorkTriangle::kOverSize;
+  if (product > bounds_.edge * std::min({aa, bb, cc}) * cross) {
     tri.stamp |= WorkTriangle::kOverRadiusEdge;
   }
 }
@@ -434,7 +372,7 @@ void TileFront::classify_star(Index centre) {
       star.z[i] = v.z - p.z;
       star.spacing[i] = v.spacing;
     }
-    flag_lanes(p, star, circle);
+    flag_lanes(p, bounds_, star, circle);
     if (mesh_.ball_surface == nullptr) {
       plane_lanes(p, star, circle);
     } else {
@@ -447,25 +385,6 @@ void TileFront::classify_star(Index centre) {
       if (circle.size_excess[i] > 0.0) tri.stamp |= WorkTriangle::kOverSize;
       if (circle.edge_excess[i] > 0.0) tri.stamp |= WorkTriangle::kOverRadiusEdge;
     }
-  }
-}
-
-// The same arithmetic as flag(), side by side.
-void TileFront::flag_lanes(const Vertex& p, const StarLanes& s, CircleLanes& out) const {
-  const double size_factor = size_factor_, edge_factor = edge_factor_;
-  for (std::size_t i = 0; i < kLanes; ++i) {
-    const double nx = s.y[i] * s.z[i + 1] - s.z[i] * s.y[i + 1];
-    const double ny = s.z[i] * s.x[i + 1] - s.x[i] * s.z[i + 1];
-    const double nz = s.x[i] * s.y[i + 1] - s.y[i] * s.x[i + 1];
-    const double aa = s.x[i] * s.x[i] + s.y[i] * s.y[i] + s.z[i] * s.z[i];
-    const double bb = s.x[i + 1] * s.x[i + 1] + s.y[i + 1] * s.y[i + 1] + s.z[i + 1] * s.z[i + 1];
-    const double dx = s.x[i] - s.x[i + 1], dy = s.y[i] - s.y[i + 1], dz = s.z[i] - s.z[i + 1];
-    const double cc = dx * dx + dy * dy + dz * dz;
-    const double h = s.spacing[i] + s.spacing[i + 1] + p.spacing;
-    const double product = aa * bb * cc, cross = nx * nx + ny * ny + nz * nz;
-    const double ab = aa < bb ? aa : bb;
-    out.size_excess[i] = product - size_factor * h * h * cross;
-    out.edge_excess[i] = product - edge_factor * (ab < cc ? ab : cc) * cross;
   }
 }
 
