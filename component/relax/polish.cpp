@@ -260,29 +260,35 @@ std::int64_t restore_around(parallel::Executor& exec, const Ellipsoid& surface, 
   return restore_delaunay(mesh, surface, seeds, &written);
 }
 
-// Only triangles that were bad, have been written or lie next to those can be bad now.
+// Only triangles that were bad, have been written or lie next to those can be bad now. Most are not
+// and come up several times, so they are judged as they come and only the bad ones put in order.
 std::vector<Index> still_bad(parallel::Executor& exec, const MeshView& view, double target,
-                             std::vector<Index> suspects, const std::vector<Index>& written) {
+                             const std::vector<Index>& suspects,
+                             const std::vector<Index>& written) {
   const Mesh& mesh = view.mesh;
-  for (const Index tri : written) {
-    const auto& around = mesh.triangle(tri).neighbour;
-    suspects.insert(suspects.end(), around.begin(), around.end());
-    suspects.push_back(tri);
-  }
-  std::sort(suspects.begin(), suspects.end());
-  suspects.erase(std::unique(suspects.begin(), suspects.end()), suspects.end());
   const Badness bad{target};
-  return parallel::collect<Index>(
-      exec, static_cast<std::int64_t>(suspects.size()), kListGrain,
+  const auto judge = [&](Index tri, std::vector<Index>& found) {
+    if (mesh.triangle(tri).vertex[0] != kNone && view.has_free_corner(tri) && bad.has(mesh, tri)) {
+      found.push_back(tri);
+    }
+  };
+  const auto n_suspects = static_cast<std::int64_t>(suspects.size());
+  std::vector<Index> still = parallel::collect<Index>(
+      exec, n_suspects + static_cast<std::int64_t>(written.size()), kListGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (std::int64_t i = begin; i < end; ++i) {
-          const Index tri = suspects[static_cast<std::size_t>(i)];
-          if (mesh.triangle(tri).vertex[0] != kNone && view.has_free_corner(tri) &&
-              bad.has(mesh, tri)) {
-            found.push_back(tri);
+          if (i < n_suspects) {
+            judge(suspects[static_cast<std::size_t>(i)], found);
+            continue;
           }
+          const Index tri = written[static_cast<std::size_t>(i - n_suspects)];
+          judge(tri, found);
+          for (const Index neighbour : mesh.triangle(tri).neighbour) judge(neighbour, found);
         }
       });
+  std::sort(still.begin(), still.end());
+  still.erase(std::unique(still.begin(), still.end()), still.end());
+  return still;
 }
 
 // `bad`, the triangles below the target, keeps those that are aimed at.
@@ -362,7 +368,7 @@ class Polisher {
       }
       if (part_ != nullptr) written_.insert(written_.end(), written.begin(), written.end());
       const std::size_t n_before = bad_.size();
-      bad_ = still_bad(context_.exec, view_, aim.quality, std::move(bad_), written);
+      bad_ = still_bad(context_.exec, view_, aim.quality, bad_, written);
       context_.monitor.advance(static_cast<std::int64_t>(n_before) -
                                static_cast<std::int64_t>(bad_.size()));
       ++report_.rounds;
