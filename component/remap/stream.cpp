@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "remap/stream.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 
 #include "geometry/point_order.hpp"
-#include "geometry/tangent_frame.hpp"
+#include "remap/laplace.hpp"
+#include "remap/quadratic_fit.hpp"
 #include "remap/walk.hpp"
 
 namespace delos::remap {
@@ -19,8 +19,6 @@ constexpr std::int64_t kFitBlock = 512;   // vertices along the curve, 1 ms of f
 constexpr double kShortest = 1e-6;
 // Gradient of the projection against the flow at which it has arrived; 1e-10 is promised.
 constexpr double kArrived = 1e-13;
-// Vertices nearer than this (radii) are the same one.
-constexpr double kSame = 1e-15;
 
 // min over psi of sum (dc / dv) (flux + psi[v1] - psi[v0])^2.
 struct Projection {
@@ -33,9 +31,12 @@ struct Projection {
     const auto [v, w] = grid.vertices_on_edge[at(edge)];
     return flux[at(edge)] + (psi[at(w)] - psi[at(v)]);
   }
-  double sum(std::span<const double> a, std::span<const double> b) const {
-    return parallel::sum(exec, static_cast<std::int64_t>(a.size()), kSumGrain,
-                         [&](std::int64_t i) { return a[at(i)] * b[at(i)]; });
+  // Of weight times the square of what `value` gives for each edge.
+  template <class Value>
+  double sum(Value&& value) const {
+    return parallel::sum(exec, grid.n_edges(), kSumGrain, [&](std::int64_t edge) {
+      return weight[at(edge)] * value(edge) * value(edge);
+    });
   }
 };
 
@@ -86,111 +87,54 @@ void gather(const Projection& p, Value&& value, Array<double>& out) {
   });
 }
 
-// Conjugate gradients, each vertex scaled by its diagonal; a fixed number of rounds at most.
+// The sum along the tree plus what the projection's normal equations ask for beyond it.
 void descend(Context& context, const Projection& p, Array<double>& psi) {
-  const std::size_t n = psi.size();
-  Array<double> diagonal(n), residual(n), scaled(n), direction(n), image(n);
-  parallel::for_index(p.exec, p.grid.n_vertices(), kSumGrain, [&](std::int64_t v) {
-    double sum = 0.0;
-    for (const Index edge : p.grid.edges_on_vertex[at(v)]) sum += p.weight[at(edge)];
-    diagonal[at(v)] = sum;
-  });
+  const Network network =
+      make_network(p.exec, p.grid.n_vertices(), [&](std::int64_t v, auto&& put) {
+        for (const Index edge : p.grid.edges_on_vertex[at(v)]) {
+          const auto [a, b] = p.grid.vertices_on_edge[at(edge)];
+          put(a == v ? b : a, p.weight[at(edge)]);
+        }
+      });
+  Array<double> residual(psi.size());
   gather(
       p, [&](Index edge) { return -p.misfit(edge, psi); }, residual);
-  const auto each = [&](auto&& body) {
-    parallel::for_index(p.exec, p.grid.n_vertices(), kSumGrain, body);
-  };
-  const double size = parallel::sum(p.exec, p.grid.n_edges(), kSumGrain, [&](std::int64_t e) {
-    return p.weight[at(e)] * p.flux[at(e)] * p.flux[at(e)];
-  });
-  const auto rounds = 1000 + 20 * static_cast<std::int64_t>(std::sqrt(static_cast<double>(n)));
-  double before = 0.0;
-  for (std::int64_t round = 0; round < rounds; ++round) {
-    context.monitor.check_cancelled();
-    each([&](std::int64_t v) { scaled[at(v)] = residual[at(v)] / diagonal[at(v)]; });
-    const double now = p.sum(residual, scaled);
-    if (now <= kArrived * kArrived * size) return;
-    const double keep = round == 0 ? 0.0 : now / before;
-    each([&](std::int64_t v) {
-      direction[at(v)] = round == 0 ? scaled[at(v)] : scaled[at(v)] + keep * direction[at(v)];
-    });
-    gather(
-        p,
-        [&](Index edge) {
-          const auto [v, w] = p.grid.vertices_on_edge[at(edge)];
-          return direction[at(w)] - direction[at(v)];
-        },
-        image);
-    const double step = now / p.sum(direction, image);
-    each([&](std::int64_t v) {
-      psi[at(v)] += step * direction[at(v)];
-      residual[at(v)] -= step * image[at(v)];
-    });
-    before = now;
-  }
+  const double size = p.sum([&](std::int64_t edge) { return p.flux[at(edge)]; });
+  DELOS_CHECK(std::isfinite(size), ErrorKind::input,
+              "the flow holds normal velocities that are not finite, which have no potentials: "
+              "give edges without a flow 0.");
+  const Array<double> more = solve_laplace(context, network, residual, kArrived * std::sqrt(size));
+  parallel::for_index(p.exec, p.grid.n_vertices(), kSumGrain,
+                      [&](std::int64_t v) { psi[at(v)] += more[at(v)]; });
 }
 
 double remainder(const Projection& p, std::span<const double> psi) {
-  double rest = 0.0, size = 0.0;
-  rest = parallel::sum(p.exec, p.grid.n_edges(), kSumGrain, [&](std::int64_t e) {
-    return p.weight[at(e)] * p.misfit(e, psi) * p.misfit(e, psi);
-  });
-  size = parallel::sum(p.exec, p.grid.n_edges(), kSumGrain, [&](std::int64_t e) {
-    return p.weight[at(e)] * p.flux[at(e)] * p.flux[at(e)];
-  });
+  const double rest = p.sum([&](std::int64_t edge) { return p.misfit(edge, psi); });
+  const double size = p.sum([&](std::int64_t edge) { return p.flux[at(edge)]; });
   return size > 0.0 ? std::sqrt(rest / size) : 0.0;
 }
 
-// Value at p of the quadratic that fits psi at the corners of a cell and its neighbours best, near
-// corners most.
-class Fit {
- public:
-  Fit(const Tiling& cells, std::span<const double> psi) : cells_(cells), psi_(psi) {}
-
-  double value(Index cell, const Vec3& p) {
-    corners_.clear();
-    for (const Index id : cells_.corners(cell)) {
-      if ((cells_.corner(id) - p).cwiseAbs().maxCoeff() <= kSame) return psi_[at(id)];
-      corners_.push_back(id);
-    }
-    for (const Index beside : cells_.neighbours(cell)) {
-      const auto more = cells_.corners(beside);
-      corners_.insert(corners_.end(), more.begin(), more.end());
-    }
-    std::sort(corners_.begin(), corners_.end());
-    corners_.erase(std::unique(corners_.begin(), corners_.end()), corners_.end());
-    return solve(p, psi_[at(cells_.corners(cell)[0])]);
+// The corners of a cell and of its neighbours, ascending.
+void gather_corners(const Tiling& cells, Index cell, std::vector<Index>& ids) {
+  ids.assign(cells.corners(cell).begin(), cells.corners(cell).end());
+  for (const Index beside : cells.neighbours(cell)) {
+    const auto more = cells.corners(beside);
+    ids.insert(ids.end(), more.begin(), more.end());
   }
+  std::sort(ids.begin(), ids.end());
+  ids.erase(std::unique(ids.begin(), ids.end()), ids.end());
+}
 
- private:
-  double solve(const Vec3& p, double reference) const {
-    using Six = Eigen::Matrix<double, 6, 1>;
-    const TangentFrame plane(p.normalized());
-    double square = 0.0;
-    for (const Index id : corners_) square += (cells_.corner(id) - p).squaredNorm();
-    square /= static_cast<double>(corners_.size());
-    const double scale = 1.0 / std::sqrt(square);
-    Eigen::Matrix<double, 6, 6> matrix = Eigen::Matrix<double, 6, 6>::Zero();
-    Six right = Six::Zero();
-    for (const Index id : corners_) {
-      const Vec3 d = cells_.corner(id) - p;
-      const double x = scale * d.dot(plane.right), y = scale * d.dot(plane.ahead);
-      const double weight = 1.0 / (0.1 + (x * x + y * y));
-      Six row;
-      row << 1.0, x, y, x * x, x * y, y * y;
-      matrix += weight * row * row.transpose();
-      right += weight * (psi_[at(id)] - reference) * row;
-    }
-    // Few corners (the coarsest grids) leave the curvature open; then it is small.
-    constexpr double kSmall = 1e-12;
-    for (int k = 3; k < 6; ++k) matrix(k, k) += kSmall;
-    return reference + matrix.ldlt().solve(right)[0];
+// psi at p, a point in a cell; `ids` is scratch.
+double psi_at(const Tiling& cells, const Scattered& psi, Index cell, const Vec3& p,
+              std::vector<Index>& ids) {
+  const auto corners = cells.corners(cell);
+  for (const Index id : corners) {
+    if (is_same_point(psi.places[at(id)], p)) return psi.values[at(id)];
   }
-
-  const Tiling& cells_;
-  std::span<const double> psi_;
-  std::vector<Index> corners_;
-};
+  gather_corners(cells, cell, ids);
+  return quadratic_fit(psi, ids, p, psi.values[at(corners[0])]);
+}
 
 }  // namespace
 
@@ -229,12 +173,12 @@ Array<double> transfer_stream_function(parallel::Executor& exec, const Grid& sou
   Array<double> result(points.size());
   const auto n = static_cast<std::int64_t>(points.size());
   parallel::for_range(exec, n, kFitBlock, [&](std::int64_t begin, std::int64_t end) {
-    Fit fit(cells, psi);
+    std::vector<Index> ids;
     Index here = start_near(cells, points[at(order[at(begin)])]);
     for (std::int64_t k = begin; k < end; ++k) {
       const Vec3& p = points[at(order[at(k)])];
       here = walk(cells, p, here);
-      result[at(order[at(k)])] = fit.value(here, p);
+      result[at(order[at(k)])] = psi_at(cells, {source.vertex_position, psi}, here, p, ids);
     }
   });
   return result;

@@ -20,7 +20,7 @@ struct StreamFunction {
 
 /// The stream function whose flow is nearest to `normal` [n_edges] in the mean of squares weighted
 /// with dc dv (the Helmholtz projection). A sum along a spanning tree, which is the answer when the
-/// flow has no divergence; else conjugate gradients go on from it, sqrt(n) rounds.
+/// flow has no divergence; else conjugate gradients go on from it.
 StreamFunction stream_function(Context& context, const Grid& grid, std::span<const double> normal);
 
 /// Normal velocities [n_edges] of psi [n_vertices]: outflows telescope, so their sum over a cell is

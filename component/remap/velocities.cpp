@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "remap/potential.hpp"
 #include "remap/stream.hpp"
 #include "remap/vectors.hpp"
 
@@ -45,21 +46,80 @@ Array<double> by_vectors(parallel::Executor& exec, const Transfer& transfer, con
   return normal_velocities(exec, grids.target, vectors);
 }
 
-Array<double> by_stream_function(Context& context, const Transfer& transfer, const GridPair& grids,
-                                 std::span<const double> normal, const TransferOptions& options) {
+// The part of a flow without divergence, on the target, and what it leaves, on the source.
+struct Parts {
+  Array<double> solenoidal, rest;
+};
+
+Parts parts_of(Context& context, const GridPair& grids, std::span<const double> normal) {
   parallel::Executor& exec = context.exec;
   const StreamFunction stream = stream_function(context, grids.source, normal);
-  const Array<double> solenoidal = flow_of(exec, grids.source, stream.psi);
-  Array<double> rest(normal.size());
+  Array<double> rest = flow_of(exec, grids.source, stream.psi);
   parallel::for_index(exec, grids.source.n_edges(), kEdgeGrain, [&](std::int64_t edge) {
-    rest[at(edge)] = normal[at(edge)] - solenoidal[at(edge)];
+    rest[at(edge)] = normal[at(edge)] - rest[at(edge)];
   });
-  Array<double> result = flow_of(
-      exec, grids.target, transfer_stream_function(exec, grids.source, grids.target, stream.psi));
-  const Array<double> more = by_vectors(exec, transfer, grids, rest, options);
-  parallel::for_index(exec, grids.target.n_edges(), kEdgeGrain,
-                      [&](std::int64_t edge) { result[at(edge)] += more[at(edge)]; });
+  return {flow_of(exec, grids.target,
+                  transfer_stream_function(exec, grids.source, grids.target, stream.psi)),
+          std::move(rest)};
+}
+
+void add(parallel::Executor& exec, std::span<const double> more, std::span<double> flow) {
+  parallel::for_index(exec, static_cast<std::int64_t>(flow.size()), kEdgeGrain,
+                      [&](std::int64_t edge) { flow[at(edge)] += more[at(edge)]; });
+}
+
+Array<double> by_stream_function(Context& context, const Transfer& transfer, const GridPair& grids,
+                                 std::span<const double> normal, const TransferOptions& options) {
+  Parts parts = parts_of(context, grids, normal);
+  add(context.exec, by_vectors(context.exec, transfer, grids, parts.rest, options),
+      parts.solenoidal);
+  return std::move(parts.solenoidal);
+}
+
+// Good to second order, but for the divergence.
+Array<double> by_potentials(Context& context, const GridPair& grids,
+                            std::span<const double> normal) {
+  parallel::Executor& exec = context.exec;
+  Parts parts = parts_of(context, grids, normal);
+  const Array<double> chi = transfer_potential(exec, grids.source, grids.target,
+                                               velocity_potential(grids.source, parts.rest));
+  add(exec, gradient_of(exec, grids.target, chi), parts.solenoidal);
+  return std::move(parts.solenoidal);
+}
+
+// The source's divergence on the target's cells. A sum that is assured over the whole grid would
+// leave parts between unchanged cells with another one than flows in.
+Array<double> carried_divergence(parallel::Executor& exec, const Transfer& transfer,
+                                 const GridPair& grids, std::span<const double> normal,
+                                 const TransferOptions& options) {
+  const bool is_limited = options.limiter != Limiter::none;
+  Array<double> result(at(grids.target.n_cells()));
+  transfer.apply(exec, divergence(exec, grids.source, normal), result,
+                 {options.order, is_limited ? Limiter::gradient : Limiter::none});
   return result;
+}
+
+void copy_unchanged(parallel::Executor& exec, std::span<const Twin> twins,
+                    std::span<const double> normal, std::span<double> moved) {
+  parallel::for_index(exec, static_cast<std::int64_t>(moved.size()), kEdgeGrain,
+                      [&](std::int64_t edge) {
+                        const Twin& twin = twins[at(edge)];
+                        if (twin.edge != kNone) moved[at(edge)] = twin.sign * normal[at(twin.edge)];
+                      });
+}
+
+// On all edges of the target, as if none were the source's.
+Array<double> by_route(Context& context, const Transfer& transfer, const GridPair& grids,
+                       std::span<const double> normal, const VelocityOptions& options) {
+  switch (options.route) {
+    case VelocityRoute::stream_function:
+      return by_stream_function(context, transfer, grids, normal, options.transfer);
+    case VelocityRoute::helmholtz:
+      return by_potentials(context, grids, normal);
+    case VelocityRoute::vectors:
+      break;
+  }
+  return by_vectors(context.exec, transfer, grids, normal, options.transfer);
 }
 
 }  // namespace
@@ -73,20 +133,25 @@ Array<double> transfer_velocities(Context& context, const Transfer& transfer, co
   DELOS_CHECK(static_cast<std::int64_t>(normal.size()) == n_levels * n_sources, ErrorKind::input,
               "a transfer of velocities from ", n_sources, " edges of ", n_levels,
               " values was given ", normal.size(), " values: they belong to another grid.");
-  const Array<Twin> twins = twins_of(context.exec, transfer.overlaps(), grids);
-  Array<double> result(at(n_levels * n_targets)), level_values(at(n_sources));
+  parallel::Executor& exec = context.exec;
+  const Array<Twin> twins = twins_of(exec, transfer.overlaps(), grids);
+  Array<char> is_free(twins.size());
+  parallel::for_index(exec, n_targets, kEdgeGrain, [&](std::int64_t edge) {
+    is_free[at(edge)] = twins[at(edge)].edge == kNone ? 1 : 0;
+  });
+  Array<double> result(at(n_levels * n_targets)), from(at(n_sources));
   for (std::int64_t level = 0; level < n_levels; ++level) {
-    parallel::for_index(context.exec, n_sources, kEdgeGrain, [&](std::int64_t edge) {
-      level_values[at(edge)] = normal[at(edge * n_levels + level)];
+    parallel::for_index(exec, n_sources, kEdgeGrain, [&](std::int64_t edge) {
+      from[at(edge)] = normal[at(edge * n_levels + level)];
     });
-    const Array<double> moved =
-        options.route == VelocityRoute::vectors
-            ? by_vectors(context.exec, transfer, grids, level_values, options.transfer)
-            : by_stream_function(context, transfer, grids, level_values, options.transfer);
-    parallel::for_index(context.exec, n_targets, kEdgeGrain, [&](std::int64_t edge) {
-      const Twin& twin = twins[at(edge)];
-      result[at(edge * n_levels + level)] =
-          twin.edge == kNone ? moved[at(edge)] : twin.sign * level_values[at(twin.edge)];
+    Array<double> moved = by_route(context, transfer, grids, from, options);
+    copy_unchanged(exec, twins, from, moved);
+    if (options.route == VelocityRoute::helmholtz) {
+      const auto wanted = carried_divergence(exec, transfer, grids, from, options.transfer);
+      impose_divergence(context, grids.target, {wanted, is_free}, moved);
+    }
+    parallel::for_index(exec, n_targets, kEdgeGrain, [&](std::int64_t edge) {
+      result[at(edge * n_levels + level)] = moved[at(edge)];
     });
   }
   return result;

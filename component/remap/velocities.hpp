@@ -12,7 +12,12 @@ namespace delos::remap {
 enum class VelocityRoute {
   vectors,  ///< by the cells' Cartesian vectors
   /// The part without divergence by its stream function, so that it gets none; the rest as vectors.
-  stream_function
+  stream_function,
+  /// Both parts by their potentials (Helmholtz): the one as above, the other by its velocity
+  /// potential, then every cell gets the divergence that the old cells' is as a transferred field,
+  /// whose sum is kept: within 1e-10 of velocity over spacing. To the order of `transfer`, limited
+  /// by gradients if at all.
+  helmholtz
 };
 
 struct VelocityOptions {

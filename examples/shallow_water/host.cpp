@@ -84,7 +84,8 @@ std::optional<Change> Host::advance_hour(double courant) {
   return carry(before, component_.grid());
 }
 
-// Depths as means of cells; the flow by its stream function, so that no waves are made.
+// Depths as means of cells; the flow by its potentials, so that no waves are made and those that
+// are there go on.
 Change Host::carry(const delos::Grid& before, const delos::Grid& after) {
   Change change{
       .n_before = before.n_cells(), .n_after = after.n_cells(), .before = model_.totals()};
@@ -94,7 +95,7 @@ Change Host::carry(const delos::Grid& before, const delos::Grid& after) {
   flow.normal_m_s.resize(static_cast<std::size_t>(after.n_edges()));
   transfer.apply(model_.flow().depth_m, flow.depth_m);
   transfer.apply_velocity(model_.flow().normal_m_s, flow.normal_m_s,
-                          delos::VelocityRoute::stream_function);
+                          delos::VelocityRoute::helmholtz);
   model_.start(after, case_.ground_m(after), std::move(flow));
   change.n_unchanged = transfer.n_unchanged();
   change.after = model_.totals();

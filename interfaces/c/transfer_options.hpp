@@ -33,8 +33,8 @@ inline delos_transfer_options or_defaults(const delos_transfer_options* options)
 }
 
 inline VelocityRoute velocity_route(const delos_transfer_options& options) {
-  return chosen({VelocityRoute::vectors, VelocityRoute::stream_function}, options.velocity,
-                "velocity");
+  return chosen({VelocityRoute::vectors, VelocityRoute::stream_function, VelocityRoute::helmholtz},
+                options.velocity, "velocity");
 }
 
 /// An array of the host's as both sides see it.

@@ -22,6 +22,8 @@ static_assert(static_cast<int>(TransferLimiter::assured_sum) ==
               static_cast<int>(remap::Limiter::assured_sum));
 static_assert(static_cast<int>(VelocityRoute::stream_function) ==
               static_cast<int>(remap::VelocityRoute::stream_function));
+static_assert(static_cast<int>(VelocityRoute::helmholtz) ==
+              static_cast<int>(remap::VelocityRoute::helmholtz));
 
 const delos::Grid& engine(const Grid& grid) { return *GridAccess::product(grid).grid; }
 

@@ -34,7 +34,7 @@ module delos
   use delos_components, only: delos_component
   use delos_transfers, only: delos_transfer, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, &
     DELOS_LIMITER_GRADIENT, DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, DELOS_VELOCITY_VECTORS, &
-    DELOS_VELOCITY_STREAM_FUNCTION
+    DELOS_VELOCITY_STREAM_FUNCTION, DELOS_VELOCITY_HELMHOLTZ
   implicit none
   public
 end module delos

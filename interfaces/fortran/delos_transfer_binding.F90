@@ -10,7 +10,8 @@ module delos_transfer_binding
   integer, parameter :: DELOS_ORDER_SECOND = 0, DELOS_ORDER_FIRST = 1
   integer, parameter :: DELOS_LIMITER_GRADIENT = 0, DELOS_LIMITER_NONE = 1, &
     DELOS_LIMITER_ASSURED_SUM = 2
-  integer, parameter :: DELOS_VELOCITY_VECTORS = 0, DELOS_VELOCITY_STREAM_FUNCTION = 1
+  integer, parameter :: DELOS_VELOCITY_VECTORS = 0, DELOS_VELOCITY_STREAM_FUNCTION = 1, &
+    DELOS_VELOCITY_HELMHOLTZ = 2
 
   type, bind(c) :: delos_transfer_options
     integer(c_int32_t) :: order = 0, limiter = 0, velocity = 0

@@ -7,7 +7,7 @@
 !     call component%get_grid(after)
 !     call transfer%create(before, after, ierr=ierr)
 !     call transfer%apply(old_depth, depth, ierr=ierr)     ! (n_cells), or (n_levels, n_cells)
-!     call transfer%apply_velocity(old_u, u, route=DELOS_VELOCITY_STREAM_FUNCTION, ierr=ierr)
+!     call transfer%apply_velocity(old_u, u, route=DELOS_VELOCITY_HELMHOLTZ, ierr=ierr)
 !   end if
 module delos_transfers
   use, intrinsic :: iso_c_binding, only: c_double, c_int, c_int32_t, c_int64_t
@@ -19,7 +19,7 @@ module delos_transfers
   private
   public :: delos_transfer, transfer_options, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, &
     DELOS_LIMITER_GRADIENT, DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, &
-    DELOS_VELOCITY_VECTORS, DELOS_VELOCITY_STREAM_FUNCTION
+    DELOS_VELOCITY_VECTORS, DELOS_VELOCITY_STREAM_FUNCTION, DELOS_VELOCITY_HELMHOLTZ
 
   ! Made once for a pair of grids, used for many fields. Keeps both grids' arrays, so that the grids
   ! may be destroyed. Without an order, a limiter, a route: the second, of gradients, by vectors.

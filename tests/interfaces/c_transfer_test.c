@@ -151,6 +151,12 @@ static void test_values(const delos_transfer* transfer, const delos_grid* before
   CHECK(delos_transfer_apply_velocity(transfer, u, n_edges_before, u_after, n_edges_after,
                                       &options) == DELOS_SUCCESS);
   CHECK(mass(after, u_after, &least_after) != 0.0);
+  options.velocity = DELOS_VELOCITY_HELMHOLTZ;
+  double* diverging = new_values(n_edges_after);
+  CHECK(delos_transfer_apply_velocity(transfer, u, n_edges_before, diverging, n_edges_after,
+                                      &options) == DELOS_SUCCESS);
+  CHECK(memcmp(diverging, u_after, (size_t)n_edges_after * sizeof(double)) != 0);
+  free(diverging);
   free(u_after);
   free(u);
   free(depth);

@@ -90,8 +90,8 @@ std::vector<double> free_flow(const delos::Grid& grid) {
   return normal;
 }
 
-/// The largest net outflow of a cell, of its area times 1 m/s over its spacing.
-double largest_divergence(const delos::Grid& grid, const std::vector<double>& normal) {
+/// Net outflow of every cell over its area.
+std::vector<double> divergence(const delos::Grid& grid, const std::vector<double>& normal) {
   std::vector<double> outflow(static_cast<std::size_t>(grid.n_cells()));
   const auto cells = grid.cells_on_edge();
   for (std::size_t e = 0; e < normal.size(); ++e) {
@@ -99,9 +99,30 @@ double largest_divergence(const delos::Grid& grid, const std::vector<double>& no
     outflow[static_cast<std::size_t>(cells[2 * e])] += flux;
     outflow[static_cast<std::size_t>(cells[2 * e + 1])] -= flux;
   }
+  for (std::size_t i = 0; i < outflow.size(); ++i) outflow[i] /= grid.cell_area_m2()[i];
+  return outflow;
+}
+
+/// Adds the gradient of zx at the cells; returns the divergence of the whole flow.
+std::vector<double> add_gradient(const delos::Grid& grid, std::vector<double>& normal) {
+  const auto places = grid.cell_position();
+  const auto cells = grid.cells_on_edge();
+  const auto chi = [&](std::int32_t c) {
+    const auto at = 3 * static_cast<std::size_t>(c);
+    return grid.scale_m() * places[at + 2] * places[at];
+  };
+  for (std::size_t e = 0; e < normal.size(); ++e) {
+    normal[e] += (chi(cells[2 * e + 1]) - chi(cells[2 * e])) / grid.cell_distance_m()[e];
+  }
+  return divergence(grid, normal);
+}
+
+/// The largest divergence of a cell over 1 m/s by its spacing.
+double largest_divergence(const delos::Grid& grid, const std::vector<double>& normal) {
+  const std::vector<double> found = divergence(grid, normal);
   double largest = 0.0;
-  for (std::size_t i = 0; i < outflow.size(); ++i) {
-    largest = std::max(largest, std::abs(outflow[i]) / std::sqrt(grid.cell_area_m2()[i]));
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    largest = std::max(largest, std::abs(found[i]) * std::sqrt(grid.cell_area_m2()[i]));
   }
   return largest;
 }
@@ -180,7 +201,8 @@ TEST_CASE("a grid's transfer to itself copies fields and velocities to the bit")
   std::vector<double> moved(values.size()), carried(flow.size());
   transfer.apply(values, moved);
   CHECK(moved == values);
-  for (const auto route : {delos::VelocityRoute::vectors, delos::VelocityRoute::stream_function}) {
+  for (const auto route : {delos::VelocityRoute::vectors, delos::VelocityRoute::stream_function,
+                           delos::VelocityRoute::helmholtz}) {
     transfer.apply_velocity(flow, carried, route);
     CHECK(carried == flow);
   }
@@ -213,6 +235,21 @@ TEST_CASE("velocities arrive, and by the stream function they get no divergence"
     }
   }
   CHECK(n_same > 0);
+}
+
+TEST_CASE("velocities by their potentials diverge as the old cells did") {
+  const auto [before, after] = before_and_after();
+  const delos::Transfer transfer(before, after, {.threads = 1});
+  std::vector<double> flow = free_flow(before), moved(free_flow(after).size());
+  transfer.apply_velocity(flow, moved, delos::VelocityRoute::helmholtz);
+  CHECK(largest_difference(moved, free_flow(after)) < 0.1);
+  CHECK(largest_divergence(after, moved) < 1e-11);
+  const std::vector<double> old = add_gradient(before, flow);
+  std::vector<double> wanted(static_cast<std::size_t>(after.n_cells()));
+  transfer.apply(old, wanted);
+  transfer.apply_velocity(flow, moved, delos::VelocityRoute::helmholtz);
+  CHECK(largest_divergence(after, moved) > 1e-3);
+  CHECK(largest_difference(divergence(after, moved), wanted) < 1e-9 / after.scale_m());
 }
 
 TEST_CASE("sizes and grids that do not fit a transfer are refused with both generations") {

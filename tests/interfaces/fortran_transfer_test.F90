@@ -68,7 +68,7 @@ contains
     logical, intent(in) :: is_shown
     real(c_double), pointer :: places(:, :), old_area_m2(:), area_m2(:)
     real(c_double), allocatable :: old(:), depth(:), old_levels(:, :), levels(:, :)
-    real(c_double), allocatable :: old_u(:), u(:)
+    real(c_double), allocatable :: old_u(:), u(:), by_stream(:)
     integer :: ierr
     places => before%cell_position()
     old = 1 + places(3, :)**2
@@ -93,6 +93,9 @@ contains
     old_u(1) = 1
     call carrier%apply_velocity(old_u, u, route=DELOS_VELOCITY_STREAM_FUNCTION, ierr=ierr)
     call expect(ierr == DELOS_SUCCESS .and. any(abs(u) > 0), "velocities")
+    by_stream = u
+    call carrier%apply_velocity(old_u, u, route=DELOS_VELOCITY_HELMHOLTZ, ierr=ierr)
+    call expect(ierr == DELOS_SUCCESS .and. any(abs(u - by_stream) > 0), "by their potentials")
     call carrier%apply_velocity(old, u, ierr=ierr)
     call expect(ierr == DELOS_ERROR_INPUT, "sizes count")
     call expect(index(carrier%message(), "generation 1") > 0, "and the message has the grids")

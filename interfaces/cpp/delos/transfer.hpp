@@ -41,9 +41,15 @@ struct TransferOptions {
 enum class VelocityRoute {
   vectors,  ///< by Cartesian vectors at the cells
   /// The part without divergence by its stream function, so that it gets none: 1e-12 of velocity
-  /// over spacing; the rest as vectors. Takes sqrt(n_cells) rounds of a solver for a flow with
+  /// over spacing; the rest as vectors. Takes some forty rounds of a solver for a flow with
   /// divergence.
-  stream_function
+  stream_function,
+  /// Both parts by their potentials: a flow without divergence gets none, and of any flow every
+  /// cell gets the divergence that apply() makes of the old cells' with the same order and limiter
+  /// (limiter `gradient` for `assured_sum`), within 1e-10 of velocity over spacing; the
+  /// divergence's sum over any part of the grid whose border stays is kept. Takes some forty rounds
+  /// of a solver, then some twenty.
+  helmholtz
 };
 
 /// Made once for a pair of grids, used for many fields. Keeps both grids' arrays. Copies are the
