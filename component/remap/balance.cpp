@@ -10,10 +10,11 @@ namespace {
 
 constexpr std::int64_t kSumGrain = 4096;  // rows or columns of a few overlaps each, 0.1 ms
 
-// Rounds of columns and rows: rounding needs about five, a fold in a grid all of them.
+// Rounds of columns and rows: rounding needs about three, a fold in a grid all of them.
 constexpr int kMostRounds = 60;
-// Misfit of a column at which to stop: sums of a few terms are no better.
-constexpr double kBalanced = 2e-15;
+// Misfit of a column at which to stop: sums of a few terms are hardly better, so that to halve it
+// takes as many rounds again.
+constexpr double kBalanced = 4e-15;
 // Corrections are stretched (successive over-relaxation): misfits of opposite sign in neighbours
 // would level out slowly.
 constexpr double kStretch = 1.5;

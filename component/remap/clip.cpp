@@ -72,7 +72,23 @@ bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {
     const double whole = std::abs(b.x - a.x) + std::abs(b.y - a.y);
     sides_[k] = {tiling.bow(polygon, k), whole > 0.0 ? 1.0 : 0.0, whole > 0.0 ? whole : 1.0};
   }
+  area_m2_ = tiling.area_m2()[at(polygon)];
+  is_sound_ = find_lines();
   return true;
+}
+
+// The sides as lines; false when one runs backwards.
+bool Clipper::find_lines() {
+  lines_.resize(subject_.size());
+  bool is_sound = true;
+  for (std::size_t k = 0; k < subject_.size(); ++k) {
+    const Corner &a = subject_[k == 0 ? subject_.size() - 1 : k - 1], &b = subject_[k];
+    const Vec3 line(a.y - b.y, b.x - a.x, a.x * b.y - a.y * b.x);
+    const double slope = std::abs(line.x()) + std::abs(line.y());
+    lines_[k] = {line, slope, slope + std::abs(line.z())};
+    is_sound = is_sound && (slope < kShortest || line.z() > 0.0);
+  }
+  return is_sound;
 }
 
 std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon) {
@@ -82,24 +98,69 @@ std::span<const Corner> Clipper::clip(const Tiling& tiling, std::int64_t polygon
   for (std::size_t k = 0; k < ids.size(); ++k) clipping[k] = frame_.local(tiling.corner(ids[k]));
   const Vec3 centre = frame_.local(tiling.centres()[at(polygon)]);
   n_clipping_ = ids.size();
+  const bool is_smaller = tiling.area_m2()[at(polygon)] < area_m2_ && is_sound_ && flatten(centre);
+  if (!(is_smaller ? cut_by_subject() : cut_subject(centre))) return {};
+  return {current_.data(), n_};
+}
+
+// The second polygon in the plane, as what is to be cut. False when it reaches round the body or
+// where the grid folds by a trifle: such a side cuts nothing and can't be cut either.
+bool Clipper::flatten(const Vec3& centre) {
+  double lowest = centre.z();
+  for (std::size_t k = 0; k < n_clipping_; ++k) lowest = std::min(lowest, clipping_[k].z());
+  if (!(lowest > 0.0)) return false;
+  flat_x_ = centre.x() / centre.z();
+  flat_y_ = centre.y() / centre.z();
+  flat_reach_ = 0.0;
+  for (std::size_t k = 0; k < n_clipping_; ++k) {
+    const Vec3& p = clipping_[k];
+    Corner& corner = current_[k];
+    corner = {p.x() / p.z(), p.y() / p.z(), static_cast<Index>(k + 1 == n_clipping_ ? 0 : k + 1)};
+    flat_reach_ =
+        std::max({flat_reach_, std::abs(corner.x - flat_x_), std::abs(corner.y - flat_y_)});
+  }
+  n_ = n_clipping_;
+  const Corner middle{flat_x_, flat_y_, kNone};
+  for (std::size_t k = 0; k < n_; ++k) {
+    const Corner &a = current_[k == 0 ? n_ - 1 : k - 1], &b = current_[k];
+    const bool is_long = std::abs(b.x - a.x) + std::abs(b.y - a.y) >= kShortest;
+    if (is_long && !(twice_area(middle, a, b) > 0.0)) return false;
+  }
+  return true;
+}
+
+bool Clipper::cut_by_subject() {
+  for (std::size_t k = 0; k < lines_.size(); ++k) {
+    const auto& [line, slope, length] = lines_[k];
+    if (slope < kShortest) continue;
+    const double off = (line.x() * flat_x_ + line.y() * flat_y_) + line.z();
+    if (off >= flat_reach_ * slope) continue;
+    if (off <= -flat_reach_ * slope) return false;
+    if (!cut(line, kOnSide * length, ~static_cast<Index>(k))) return false;
+  }
+  return true;
+}
+
+bool Clipper::cut_subject(const Vec3& centre) {
+  const Vec3* const clipping = clipping_.data();
   n_ = subject_.size();
   std::copy(subject_.begin(), subject_.end(), current_.begin());
-  for (std::size_t k = 0; k < ids.size(); ++k) {
-    const Vec3 line = clipping[k == 0 ? ids.size() - 1 : k - 1].cross(clipping[k]);
+  for (std::size_t k = 0; k < n_clipping_; ++k) {
+    const Vec3 line = clipping[k == 0 ? n_clipping_ - 1 : k - 1].cross(clipping[k]);
     const double length = line.cwiseAbs().sum();
     // A side that runs backwards, where the grid folds by a trifle, cuts nothing either.
     if (length < kShortest || !(line.dot(centre) > 0.0)) continue;
     // All of the subject lies to its left, farther off than rounding.
     if (line.z() >= reach_ * (std::abs(line.x()) + std::abs(line.y()))) continue;
-    if (!cut(line, kOnSide * length, static_cast<Index>(k))) return {};
+    if (!cut(line, kOnSide * length, static_cast<Index>(k))) return false;
   }
-  return {current_.data(), n_};
+  return true;
 }
 
 // Each side adds one corner, or one more where rounding has bent a polygon, and cut() writes one
 // more than it keeps.
 void Clipper::make_room(std::size_t n_clipping) {
-  const std::size_t most = subject_.size() + 2 * n_clipping + 1;
+  const std::size_t most = 2 * (subject_.size() + n_clipping) + 1;
   if (current_.size() >= most) return;
   current_.resize(most);
   next_.resize(most);

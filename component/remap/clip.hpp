@@ -5,7 +5,9 @@
 // Central projection onto that plane makes lines of planes through the centre, on the sphere and
 // on an ellipsoid alike, so that the intersection of two polygons is that of flat ones. Coordinates
 // are differences from the first polygon's centre: rounding is relative to the polygon, not to the
-// body. Points of the second polygon stay homogeneous, so that it may reach round the body.
+// body. Of two polygons the smaller is cut by the sides of the larger, of which few cross it.
+// Points of a second polygon that is the larger stay homogeneous, so that it may reach round the
+// body.
 #include <span>
 #include <vector>
 
@@ -56,6 +58,10 @@ class Clipper {
 
  private:
   bool cut(const Vec3& line, double on_side, Index side);
+  bool find_lines();
+  bool flatten(const Vec3& centre);
+  bool cut_by_subject();
+  bool cut_subject(const Vec3& centre);
   void make_room(std::size_t n_clipping);
 
   // Of a side's bow belongs to a part of length l: l scale / whole.
@@ -63,11 +69,21 @@ class Clipper {
     double bow, scale, whole;
   };
 
+  // A side of the subject as a line, and what bounds its values: sums of its coordinates' sizes.
+  struct Line {
+    Vec3 line;
+    double slope, length;
+  };
+
   Frame frame_{Vec3(0, 0, 1)};
   std::vector<Corner> subject_, current_, next_;  // of the last two n_ count
   std::size_t n_ = 0;
-  double reach_ = 0.0;          // no coordinate of the subject is larger
-  std::vector<Vec3> clipping_;  // of it n_clipping_ count
+  double reach_ = 0.0;                                     // no coordinate of the subject is larger
+  double area_m2_ = 0.0;                                   // of the subject
+  std::vector<Line> lines_;                                // of the subject's sides
+  bool is_sound_ = true;                                   // none of them runs backwards
+  double flat_x_ = 0.0, flat_y_ = 0.0, flat_reach_ = 0.0;  // around the polygon that is cut
+  std::vector<Vec3> clipping_;                             // of it n_clipping_ count
   std::size_t n_clipping_ = 0;
   std::vector<double> distance_;
   std::vector<Side> sides_;  // those of the subject, then of the other

@@ -183,6 +183,17 @@ double n_expected(const Plan& plan) {
   return kSpare * (1.0 + std::sqrt(sources)) * (1.0 + std::sqrt(sources));
 }
 
+// Where to look for a polygon at p: the source whose overlap with the last one was nearest.
+Index nearest_found(const std::vector<Found>& found, const Vec3& p, Index otherwise) {
+  double least = 16.0;
+  for (const Found& one : found) {
+    const double square = (one.middle - p).squaredNorm();
+    otherwise = square < least ? one.source : otherwise;
+    least = std::min(least, square);
+  }
+  return otherwise;
+}
+
 Block search_block(Plan& plan, std::int64_t begin, std::int64_t end, Pieces& pieces) {
   const auto& centres = plan.target.centres();
   Block block;
@@ -193,6 +204,7 @@ Block search_block(Plan& plan, std::int64_t begin, std::int64_t end, Pieces& pie
   for (std::int64_t k = begin; k < end; ++k) {
     prefetch_ahead(plan, k);
     const Index target = plan.order[at(k)];
+    home = nearest_found(found, centres[at(target)], home);
     home = walk(plan.source, centres[at(target)], home);
     plan.is_unchanged[at(target)] = are_twins(plan.target, target, plan.source, home);
     if (plan.is_unchanged[at(target)]) plan.is_taken[at(home)] = 1;

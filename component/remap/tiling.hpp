@@ -56,7 +56,7 @@ class Tiling {
     prefetch(beside.front());
     prefetch(beside.back());
     if (bow_.empty()) return;
-    const double* bow = &bow_[at(grid_->edges_on_cell.offsets.begin_of(i))];
+    const float* bow = &bow_[at(grid_->edges_on_cell.offsets.begin_of(i))];
     prefetch(bow[0]);
     prefetch(bow[corner_ids.size() - 1]);
   }
@@ -72,7 +72,7 @@ class Tiling {
   bool of_cells_ = true;
   std::span<const Vec3> corner_position_;
   std::span<const double> area_m2_;
-  Array<double> bow_;                            // side by side; empty for triangles
+  Array<float> bow_;                             // side by side; empty for triangles
   Array<std::array<Index, 3>> beside_triangle_;  // empty for cells
   Array<Vec3> own_centre_;                       // empty for cells
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/prefetch.hpp"
 #include "remap/first_seen.hpp"
 
 namespace delos::remap {
@@ -140,6 +141,21 @@ void assure_sum(parallel::Executor& exec, const Overlaps& overlaps, std::span<co
   });
 }
 
+// What the rows after this one will need, in two steps of which the later needs the first.
+void prefetch_stencils(const Rows& rows, const GradientStencils& stencils, std::int64_t i) {
+  constexpr std::int64_t kRowsAhead = 2, kOffsetsAhead = 4;
+  if (i + kOffsetsAhead >= rows.overlaps.n_targets) return;
+  for (auto k = rows.begin(i + kOffsetsAhead); k < rows.end(i + kOffsetsAhead); ++k) {
+    prefetch(stencils.offsets[at(rows.source(k))]);
+  }
+  for (auto k = rows.begin(i + kRowsAhead); k < rows.end(i + kRowsAhead); ++k) {
+    const std::size_t first = at(stencils.offsets[at(rows.source(k))]);
+    prefetch(stencils.neighbour[first]);
+    prefetch(stencils.coefficient[first]);
+    prefetch(stencils.coefficient[first + 2].z());
+  }
+}
+
 struct Weight {
   Index column;
   double value;
@@ -219,6 +235,7 @@ Weights Transfer::weights(parallel::Executor& exec, Order order) const {
     SecondOrderRow maker;
     auto& block = blocks[at(begin / kOverlapGrain)];
     for (std::int64_t i = begin; i < end; ++i) {
+      prefetch_stencils(rows, stencils_, i);
       const std::vector<Weight>& row = maker.make(rows, stencils_, i);
       weights.offsets[at(i) + 1] = static_cast<std::int64_t>(row.size());
       block.insert(block.end(), row.begin(), row.end());
