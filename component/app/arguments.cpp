@@ -99,6 +99,11 @@ void add_remap(CLI::App& app, Arguments& out) {
       ->add_option("--limiter", out.remap.limiter,
                    "of order 2: gradient (default), assured_sum or none")
       ->check(CLI::IsMember({"gradient", "assured_sum", "none"}));
+  remap
+      ->add_option(
+          "--normalize", out.remap.normalize,
+          "of cells covered in part: fracarea (default), the mean of that part, or destarea")
+      ->check(CLI::IsMember({"fracarea", "destarea"}));
   remap->add_option("--weights", out.remap.weights,
                     "write the weights, without limiter, as ESMF does");
   remap->add_option("--dimension", out.remap.dimension, "of the cells in FIELDS (default nCells)");

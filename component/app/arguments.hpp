@@ -17,7 +17,8 @@ struct RemapArguments {
   std::string out;         ///< the new file, or empty
   std::string weights;     ///< a file of weights to write, or empty
   std::string dimension = "nCells";
-  std::string limiter = "gradient";  ///< or none, assured_sum
+  std::string limiter = "gradient";    ///< or none, assured_sum
+  std::string normalize = "fracarea";  ///< or destarea
   int order = 2;
 };
 

@@ -30,6 +30,9 @@ int run_remap(const Arguments& arguments, const std::atomic<bool>& cancel) {
   task.dimension = arguments.remap.dimension;
   task.options = {arguments.remap.order == 1 ? remap::Order::first : remap::Order::second,
                   limiter_named(arguments.remap.limiter)};
+  task.options.normalization = arguments.remap.normalize == "destarea"
+                                   ? remap::Normalization::whole
+                                   : remap::Normalization::covered;
   task.command = arguments.command_line;
   parallel::Executor exec(arguments.threads);
   Monitor monitor({}, {}, &cancel);
@@ -38,6 +41,10 @@ int run_remap(const Arguments& arguments, const std::atomic<bool>& cancel) {
   print_names("carried", report.carried);
   print_names("copied", report.copied);
   print_names("left out", report.left_out);
+  if (report.n_unmapped > 0) {
+    std::printf("unmapped  %lld cells, which no cell of %s covers\n",
+                static_cast<long long>(report.n_unmapped), task.from.c_str());
+  }
   for (const std::string& path : {task.out, task.weights}) {
     if (!path.empty()) std::printf("wrote %s\n", path.c_str());
   }

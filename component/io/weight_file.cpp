@@ -84,7 +84,7 @@ void write(const std::string& path, const WeightFile& weights, const Provenance&
   const VariableId column = file.define_variable("col", Type::int32, {n});
   const VariableId row = file.define_variable("row", Type::int32, {n});
   file.attribute(netcdf::kGlobal, "title", "delos regridding weights");
-  file.attribute(netcdf::kGlobal, "normalization", "destarea");
+  file.attribute(netcdf::kGlobal, "normalization", weights.is_of_covered ? "fracarea" : "destarea");
   file.attribute(netcdf::kGlobal, "map_method", "Conservative remapping");
   file.attribute(netcdf::kGlobal, "ESMF_regrid_method", weights.method);
   file.attribute(netcdf::kGlobal, "conventions", "NCAR-CSM");

@@ -34,6 +34,8 @@ struct WeightFile {
   Array<Index> column;  ///< source, from 0
   Array<double> value;  ///< target = sum of value times source
   std::string method;   ///< e.g. "First-order Conservative"
+  /// Rows are means over the covered part of a cell ("fracarea"), not over the cell ("destarea").
+  bool is_of_covered = false;
 };
 
 /// Atomic. Ids from 1 in the file. Error(output) when it can't be written.

@@ -27,12 +27,11 @@ using netcdf::Type;
 // What missing becomes: the library's own default for doubles and floats.
 constexpr double kFill = 9.9692099683868690e+36;
 
-Grid closed_grid(Context& context, const std::string& path) {
+Grid cells_of(Context& context, const std::string& path) {
   GridFile file = read_grid_file(context, path);
-  DELOS_CHECK(
-      file.mesh, ErrorKind::input, path,
-      ": the grid has a border, but transfer needs grids that close over the surface. Remap "
-      "between the grids before they are culled.");
+  DELOS_CHECK(file.mesh || file.grid, ErrorKind::input, path,
+              ": the file has triangles with a border, but not the cells around its points. Give "
+              "the grid's MPAS file.");
   if (file.grid) return std::move(*file.grid);
   return build_grid(context, file.surface, file.latitude, *file.mesh);
 }
@@ -247,7 +246,11 @@ class Fields {
     remap::TransferOptions options = task_.options;
     options.n_levels =
         static_cast<std::int64_t>(from.size()) / std::max<std::int64_t>(1, n_sources(transfer));
-    if (is_whole) return transfer.apply(context.exec, from, to, options);
+    if (is_whole) {
+      transfer.apply(context.exec, from, to, options);
+      for (double& value : to) value = std::isnan(value) ? kFill : value;
+      return;
+    }
     const std::size_t n_levels = at(options.n_levels);
     options.n_levels = 1;
     std::vector<double> level(from.size() / n_levels), moved(to.size() / n_levels);
@@ -274,10 +277,24 @@ class Fields {
 
 void write_weight_file(Context& context, const FieldRemap& task, const remap::Transfer& transfer,
                        const std::array<const Grid*, 2>& grids, const std::string& path) {
-  const remap::Weights weights = transfer.weights(context.exec, task.options.order);
+  const remap::Normalization normalization = task.options.normalization;
+  const remap::Weights weights = transfer.weights(context.exec, task.options.order, normalization);
+  const remap::Overlaps& overlaps = transfer.overlaps();
   WeightFile file;
   file.source = weight_file_grid(*grids[0]);
   file.target = weight_file_grid(*grids[1]);
+  std::vector<double> used_m2(file.source.fraction.size(), 0.0);
+  for (std::int64_t k = 0; k < overlaps.size(); ++k) {
+    used_m2[at(overlaps.source[at(k)])] += overlaps.area_m2[at(k)];
+  }
+  for (std::size_t j = 0; j < used_m2.size() && overlaps.is_open; ++j) {
+    const double part = used_m2[j] / overlaps.source_area_m2[j];
+    file.source.fraction[j] = part >= remap::kWhole ? 1.0 : part;
+  }
+  for (std::int64_t i = 0; i < overlaps.n_targets; ++i) {
+    file.target.fraction[at(i)] = overlaps.covered_fraction(i);
+  }
+  file.is_of_covered = normalization == remap::Normalization::covered && overlaps.is_open;
   file.column = weights.column;
   file.value = weights.value;
   file.row.resize(weights.column.size());
@@ -300,7 +317,7 @@ RemapReport remap_files(Context& context, const FieldRemap& task) {
               "a file of fields needs the name of the new file beside it.");
   DELOS_CHECK(!task.fields.empty() || !task.weights.empty(), ErrorKind::config,
               "nothing to do: give FIELDS.nc and OUT.nc, --weights FILE, or both.");
-  const Grid source = closed_grid(context, task.from), target = closed_grid(context, task.to);
+  const Grid source = cells_of(context, task.from), target = cells_of(context, task.to);
   std::optional<Fields> fields;
   if (!task.fields.empty()) fields.emplace(task, source);
   const auto transfer = [&] {
@@ -321,6 +338,7 @@ RemapReport remap_files(Context& context, const FieldRemap& task) {
     });
   }
   outputs.commit();
+  report.n_unmapped = transfer.overlaps().n_unmapped;
   return report;
 }
 

@@ -10,7 +10,7 @@
 namespace delos {
 
 struct FieldRemap {
-  std::string from, to;              ///< grid files of any kind, closed over the surface
+  std::string from, to;              ///< grid files of any kind; with a border only MPAS
   std::string fields, out;           ///< netCDF; both empty: weights alone
   std::string weights;               ///< a file of weights in ESMF's layout; empty: none
   std::string dimension = "nCells";  ///< of the cells in `fields`
@@ -22,6 +22,7 @@ struct FieldRemap {
 struct RemapReport {
   std::vector<std::string> carried, copied;
   std::vector<std::string> left_out;  ///< with the reason
+  std::int64_t n_unmapped = 0;        ///< cells that no cell of `from` covers: the fill value
 };
 
 /// Carries the variables float or double of `fields` that have the cells as one dimension (leading

@@ -19,6 +19,11 @@ constexpr double kBalanced = 4e-15;
 // would level out slowly.
 constexpr double kStretch = 1.5;
 
+// A polygon that the other grid covers in part has what it has.
+bool counts(const Overlaps& overlaps, double sum, double area) {
+  return !overlaps.is_open || sum >= kWhole * area;
+}
+
 // Summed in two parts: a plain sum is not good to the last place.
 double total(parallel::Executor& exec, const Array<double>& areas) {
   const auto part = [&](std::int64_t begin, std::int64_t end) {
@@ -41,6 +46,7 @@ void scale_rows(parallel::Executor& exec, std::span<const double> factor, Overla
       overlaps.area_m2[at(k)] *= factor[at(overlaps.source[at(k)])];
       sum += overlaps.area_m2[at(k)];
     }
+    if (!counts(overlaps, sum, overlaps.target_area_m2[at(i)])) return;
     const double scale = overlaps.target_area_m2[at(i)] / sum;
     for (auto k = begin; k < end; ++k) overlaps.area_m2[at(k)] *= scale;
   });
@@ -56,6 +62,8 @@ double find_factors(parallel::Executor& exec, const ByKey& by_source, const Over
       for (auto k = by_source.offsets[at(i)]; k < by_source.offsets[at(i) + 1]; ++k) {
         sum += overlaps.area_m2[at(by_source.entry[at(k)])];
       }
+      factor[at(i)] = 1.0;
+      if (!counts(overlaps, sum, overlaps.source_area_m2[at(i)])) continue;
       const double misfit = ratio * overlaps.source_area_m2[at(i)] / sum - 1.0;
       largest = std::max(largest, std::abs(misfit));
       factor[at(i)] = 1.0 + kStretch * misfit;
@@ -70,7 +78,9 @@ double find_factors(parallel::Executor& exec, const ByKey& by_source, const Over
 
 int balance(parallel::Executor& exec, const ByKey& by_source, Overlaps& overlaps) {
   // The grids' own areas of the surface differ by rounding; sums of rows and of columns can't.
-  const double ratio = total(exec, overlaps.target_area_m2) / total(exec, overlaps.source_area_m2);
+  const double ratio = overlaps.is_open ? 1.0
+                                        : total(exec, overlaps.target_area_m2) /
+                                              total(exec, overlaps.source_area_m2);
   Array<double> factor(at(overlaps.n_sources), 1.0);
   for (int round = 0;; ++round) {
     scale_rows(exec, factor, overlaps);

@@ -15,8 +15,8 @@ constexpr std::int64_t kSourceGrain = 2048;  // about 0.2 ms of stencils
 constexpr double kInLine = 1e-6;
 
 // Normal equations of min sum (g . d_k - (f_k - f_j))^2 in the plane.
-void fit(const Tiling& source, const Overlaps& overlaps, std::int64_t j, std::span<Vec3> row) {
-  const auto neighbours = source.neighbours(j);
+void fit(const Overlaps& overlaps, std::int64_t j, std::span<const Index> neighbours,
+         std::span<Vec3> row) {
   const Vec3& here = overlaps.source_middle[at(j)];
   const TangentFrame plane(here.normalized());
   double xx = 0.0, xy = 0.0, yy = 0.0;
@@ -42,21 +42,23 @@ void fit(const Tiling& source, const Overlaps& overlaps, std::int64_t j, std::sp
 
 GradientStencils gradient_stencils(parallel::Executor& exec, const Tiling& source,
                                    const Overlaps& overlaps) {
+  // Beyond a border there is none.
+  const auto exists = [](Index beside) { return beside != kNone; };
   GradientStencils stencils;
   stencils.offsets.resize(at(source.size()) + 1);
   stencils.offsets[0] = 0;
   for (std::int64_t j = 0; j < source.size(); ++j) {
     stencils.offsets[at(j) + 1] =
-        stencils.offsets[at(j)] + static_cast<std::int64_t>(source.neighbours(j).size());
+        stencils.offsets[at(j)] + std::ranges::count_if(source.neighbours(j), exists);
   }
   stencils.neighbour.resize(at(stencils.offsets.back()));
   stencils.coefficient.resize(at(stencils.offsets.back()));
   parallel::for_index(exec, source.size(), kSourceGrain, [&](std::int64_t j) {
     const auto neighbours = source.neighbours(j);
     const std::size_t first = at(stencils.offsets[at(j)]);
-    std::copy(neighbours.begin(), neighbours.end(),
-              stencils.neighbour.begin() + static_cast<std::ptrdiff_t>(first));
-    fit(source, overlaps, j, {stencils.coefficient.data() + first, neighbours.size()});
+    Index* const row = stencils.neighbour.data() + first;
+    const auto n = at(std::copy_if(neighbours.begin(), neighbours.end(), row, exists) - row);
+    fit(overlaps, j, {row, n}, {stencils.coefficient.data() + first, n});
   });
   return stencils;
 }

@@ -10,9 +10,10 @@
 
 namespace delos::remap {
 
-/// Rows of least squares: gradient of source j = sum over its neighbours k (as in the tiling, from
-/// offsets[j] on) of coefficient (f_k - f_j), a vector in the plane that touches the sphere through
-/// the source's middle. Scaled: per unit of length. Exact for functions that are linear there.
+/// Rows of least squares: gradient of source j = sum over its neighbours k (those of the tiling
+/// that exist, from offsets[j] on) of coefficient (f_k - f_j), a vector in the plane that touches
+/// the sphere through the source's middle. Scaled: per unit of length. Exact for functions that are
+/// linear there.
 struct GradientStencils {
   Array<std::int64_t> offsets;  ///< [n_sources + 1]
   Array<Index> neighbour;       ///< [n]

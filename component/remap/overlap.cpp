@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "geometry/point_order.hpp"
+#include "remap/box_tree.hpp"
 #include "remap/clip.hpp"
 #include "remap/first_seen.hpp"
 #include "remap/walk.hpp"
@@ -41,10 +43,12 @@ struct Plan {
   std::vector<Index> order;          // targets along a Hilbert curve
   Array<std::uint8_t> is_unchanged;  // [n_targets] it has a twin
   Array<std::uint8_t> is_taken;      // [n_sources] it has a twin
+  std::optional<BoxTree> tree;       // of sources with a border
 };
 
 Plan plan_search(Context& context, const Tiling& source, const Tiling& target) {
-  Plan plan{source, target, hilbert_order(context.exec, target.centres()), {}, {}};
+  Plan plan{source, target, hilbert_order(context.exec, target.centres()), {}, {}, {}};
+  if (!source.is_closed()) plan.tree.emplace(context.exec, source);
   plan.is_unchanged.resize(at(target.size()));
   plan.is_taken.assign(at(source.size()), 0);
   return plan;
@@ -89,18 +93,39 @@ class Search {
   /// `home`: the source that holds the target's centre. Relative gap between the target's area and
   /// what was found.
   double run(Index target, Index home, std::vector<Found>& found) {
-    if (plan_.is_unchanged[at(target)]) {
-      found = {{home, plan_.source.area_m2()[at(home)], Vec3::Zero()}};
-      return 0.0;
-    }
+    if (is_twin_of(home, target, found)) return 0.0;
     double gap = spread(target, home, false, found);
     if (gap > kLookAgain) gap = spread(target, home, true, found);
-    std::sort(found.begin(), found.end(),
-              [](const Found& a, const Found& b) { return a.source < b.source; });
+    sort_by_source(found);
     return gap;
   }
 
+  /// The same from those that may meet the target, of which `home` is its twin, if it has one; what
+  /// is too much of its area is the gap.
+  double run_among(std::span<const Index> sources, Index target, Index home,
+                   std::vector<Found>& found) {
+    if (is_twin_of(home, target, found)) return 0.0;
+    found.clear();
+    if (!clipper_.begin(plan_.target, target)) return 1.0;
+    double sum_m2 = 0.0;
+    for (const Index source : sources) {
+      const auto corners = clipper_.clip(plan_.source, source);
+      if (corners.size() >= 3) sum_m2 += add(source, target, corners, found);
+    }
+    sort_by_source(found);
+    return std::max(0.0, sum_m2 / plan_.target.area_m2()[at(target)] - 1.0);
+  }
+
  private:
+  bool is_twin_of(Index home, Index target, std::vector<Found>& found) const {
+    if (!plan_.is_unchanged[at(target)]) return false;
+    found = {{home, plan_.source.area_m2()[at(home)], Vec3::Zero()}};
+    return true;
+  }
+  static void sort_by_source(std::vector<Found>& found) {
+    std::sort(found.begin(), found.end(),
+              [](const Found& a, const Found& b) { return a.source < b.source; });
+  }
   // From the home over the sides that the intersections end at or, `everywhere`, over all sides.
   double spread(Index target, Index home, bool everywhere, std::vector<Found>& found) {
     found.clear();
@@ -194,21 +219,41 @@ Index nearest_found(const std::vector<Found>& found, const Vec3& p, Index otherw
   return otherwise;
 }
 
+// Keeps the sources of one target in `found`; relative gap. `home` is where the search began and,
+// in the end, where the next one is to begin.
+double search_target(Plan& plan, Search& search, Index target, Index& home,
+                     std::vector<Found>& found) {
+  const Vec3& centre = plan.target.centres()[at(target)];
+  home = walk(plan.source, centre, nearest_found(found, centre, home));
+  plan.is_unchanged[at(target)] = are_twins(plan.target, target, plan.source, home);
+  if (plan.is_unchanged[at(target)]) plan.is_taken[at(home)] = 1;
+  return search.run(target, home, found);
+}
+
+double search_tree(Plan& plan, Search& search, Index target, std::vector<Index>& near,
+                   std::vector<Found>& found) {
+  plan.tree->find(box_of(plan.target, target), near);
+  const auto twin = std::find_if(near.begin(), near.end(), [&](Index source) {
+    return are_twins(plan.target, target, plan.source, source);
+  });
+  plan.is_unchanged[at(target)] = twin != near.end();
+  if (twin != near.end()) plan.is_taken[at(*twin)] = 1;
+  return search.run_among(near, target, twin == near.end() ? kNone : *twin, found);
+}
+
 Block search_block(Plan& plan, std::int64_t begin, std::int64_t end, Pieces& pieces) {
   const auto& centres = plan.target.centres();
   Block block;
   block.found.reserve(at(static_cast<std::int64_t>(n_expected(plan) * (end - begin))));
   Search search(plan);
   std::vector<Found> found;
-  Index home = start_near(plan.source, centres[at(plan.order[at(begin)])]);
+  std::vector<Index> near;
+  Index home = plan.tree ? kNone : start_near(plan.source, centres[at(plan.order[at(begin)])]);
   for (std::int64_t k = begin; k < end; ++k) {
     prefetch_ahead(plan, k);
     const Index target = plan.order[at(k)];
-    home = nearest_found(found, centres[at(target)], home);
-    home = walk(plan.source, centres[at(target)], home);
-    plan.is_unchanged[at(target)] = are_twins(plan.target, target, plan.source, home);
-    if (plan.is_unchanged[at(target)]) plan.is_taken[at(home)] = 1;
-    const double gap = search.run(target, home, found);
+    const double gap = plan.tree ? search_tree(plan, search, target, near, found)
+                                 : search_target(plan, search, target, home, found);
     if (gap > block.largest_gap) {
       block.largest_gap = gap;
       block.worst = target;
@@ -260,6 +305,7 @@ void collect(parallel::Executor& exec, const Plan& plan, const Pieces& pieces, O
   overlaps.offsets[0] = 0;
   for (std::int64_t i = 0; i < n; ++i) {
     overlaps.offsets[at(i) + 1] = overlaps.offsets[at(i)] + pieces.count[at(i)];
+    overlaps.n_unmapped += pieces.count[at(i)] == 0 ? 1 : 0;
   }
   const std::size_t n_overlaps = at(overlaps.offsets[at(n)]);
   overlaps.source.resize(n_overlaps);
@@ -279,7 +325,8 @@ void collect(parallel::Executor& exec, const Plan& plan, const Pieces& pieces, O
 
 // Makes the middles relative: sums of area times middle over a source are then 0, whatever the
 // accuracy of the middles, which is what keeps the mass of the second order.
-void centre_middles(parallel::Executor& exec, const ByKey& by_source, Overlaps& overlaps) {
+void centre_middles(parallel::Executor& exec, const ByKey& by_source, const Tiling& source_tiling,
+                    Overlaps& overlaps) {
   overlaps.source_middle.resize(at(overlaps.n_sources));
   parallel::for_index(exec, overlaps.n_sources, kCopyGrain, [&](std::int64_t source) {
     const std::int64_t begin = by_source.offsets[at(source)],
@@ -291,15 +338,26 @@ void centre_middles(parallel::Executor& exec, const ByKey& by_source, Overlaps& 
       sum += overlaps.area_m2[entry] * overlaps.middle[entry];
       area_m2 += overlaps.area_m2[entry];
     }
-    overlaps.source_middle[at(source)] = sum / area_m2;
+    const Vec3 mean = begin == end ? Vec3(0, 0, 0) : Vec3(sum / area_m2);
+    const bool is_part =
+        overlaps.is_open && !(area_m2 >= kWhole * overlaps.source_area_m2[at(source)]);
+    overlaps.source_middle[at(source)] = is_part ? source_tiling.centres()[at(source)] : mean;
     for (std::int64_t k = begin; k < end; ++k) {
       Vec3& middle = overlaps.middle[at(by_source.entry[at(k)])];
-      middle = end - begin == 1 ? Vec3(0, 0, 0) : Vec3(middle - overlaps.source_middle[at(source)]);
+      middle = end - begin == 1 ? Vec3(0, 0, 0) : Vec3(middle - mean);
     }
   });
 }
 
 }  // namespace
+
+double Overlaps::covered_fraction(std::int64_t i) const {
+  if (!is_open) return 1.0;
+  double sum_m2 = 0.0;
+  for (auto k = offsets[at(i)]; k < offsets[at(i) + 1]; ++k) sum_m2 += area_m2[at(k)];
+  const double area = target_area_m2[at(i)];
+  return sum_m2 >= kWhole * area ? 1.0 : sum_m2 / area;
+}
 
 Overlaps intersect(Context& context, const Tiling& source, const Tiling& target) {
   DELOS_CHECK(source.surface().radii() == target.surface().radii() &&
@@ -310,6 +368,7 @@ Overlaps intersect(Context& context, const Tiling& source, const Tiling& target)
   Overlaps overlaps;
   overlaps.n_sources = source.size();
   overlaps.n_targets = target.size();
+  overlaps.is_open = !(source.is_closed() && target.is_closed());
   overlaps.source_area_m2.assign(source.area_m2().begin(), source.area_m2().end());
   overlaps.target_area_m2.assign(target.area_m2().begin(), target.area_m2().end());
   {
@@ -320,7 +379,7 @@ Overlaps intersect(Context& context, const Tiling& source, const Tiling& target)
   }
   const ByKey of_sources = by_source(context.exec, overlaps);
   overlaps.n_balancing = balance(context.exec, of_sources, overlaps);
-  centre_middles(context.exec, of_sources, overlaps);
+  centre_middles(context.exec, of_sources, source, overlaps);
   return overlaps;
 }
 

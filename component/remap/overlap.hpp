@@ -21,10 +21,14 @@ struct Overlaps {
   Array<Vec3> source_middle;    ///< [n_sources] scaled: area-weighted mean of its overlaps' middles
   Array<double> source_area_m2, target_area_m2;  ///< [n_sources], [n_targets] as in the grids
   std::int64_t n_unchanged = 0;
-  double largest_gap = 0.0;  ///< of a target, before balancing: |sum / area - 1|
+  bool is_open = false;         ///< one of the grids has a border: polygons may be covered in part
+  std::int64_t n_unmapped = 0;  ///< targets that no source covers
+  double largest_gap = 0.0;  ///< of a target, before balancing: |sum / area - 1|; open: excess only
   int n_balancing = 0;       ///< rounds that balancing took
 
   std::int64_t size() const { return static_cast<std::int64_t>(source.size()); }
+  /// What sources cover of target i: 1 when all, but for rounding.
+  double covered_fraction(std::int64_t i) const;
   /// Target i is one source and all of it, not a part of one.
   bool is_copy(std::int64_t i) const {
     const auto first = static_cast<std::size_t>(offsets[static_cast<std::size_t>(i)]);
@@ -33,8 +37,13 @@ struct Overlaps {
   }
 };
 
+/// From this part on a polygon counts as covered by the other grid: what is missing is rounding.
+inline constexpr double kWhole = 1.0 - 1e-11;
+
 /// Intersects two tilings of the same surface. Sums over targets give each source's area, sums over
-/// sources each target's, to 1e-14 of the area. The same bits for any number of threads.
+/// sources each target's, to 1e-14 of the area, where the other grid covers it. Middles of a source
+/// that is covered in part are relative to the mean of its overlaps' all the same, but its
+/// source_middle is its centre. The same bits for any number of threads.
 /// O(n log n) for the order, the rest linear in the number of overlaps; advances the phase that the
 /// caller has begun by one for each target. Error(input) when the surfaces differ or one of the
 /// tilings has holes or folds wider than rounding.

@@ -1,18 +1,14 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "remap/tiling.hpp"
 
+#include <algorithm>
+
 #include "core/error.hpp"
 
 namespace delos::remap {
 namespace {
 
 constexpr std::int64_t kTriangleGrain = 4096;  // about 0.1 ms
-
-void check_closed(const Grid& grid) {
-  DELOS_CHECK(is_closed(grid), ErrorKind::input, "a grid of ", grid.n_cells(),
-              " cells has a border, but transfer needs grids that cover the surface: carry fields "
-              "between the grids before they are culled.");
-}
 
 // Of the first cell of each edge. They are rounding themselves: single precision is plenty.
 Array<float> bows_of_edges(parallel::Executor& exec, const Grid& grid) {
@@ -21,14 +17,16 @@ Array<float> bows_of_edges(parallel::Executor& exec, const Grid& grid) {
   parallel::for_index(exec, grid.n_edges(), kTriangleGrain, [&](std::int64_t edge) {
     if (edge + kPrefetchRounds < grid.n_edges()) {
       const auto next = at(edge + kPrefetchRounds);
-      for (const Index id : grid.cells_on_edge[next]) prefetch(grid.cell_position[at(id)]);
+      prefetch(grid.cell_position[at(grid.cells_on_edge[next][0])]);
+      prefetch(grid.cell_position[at(std::max(grid.cells_on_edge[next][1], 0))]);
       for (const Index id : grid.vertices_on_edge[next]) prefetch(grid.vertex_position[at(id)]);
     }
     const auto [c, d] = grid.cells_on_edge[at(edge)];
     const auto [v, w] = grid.vertices_on_edge[at(edge)];
     const Vec3& from = grid.vertex_position[at(v)];
     // Areas on the sphere halve the triangles between the two cells; they know no edge.
-    const Vec3 middle = is_sphere
+    // At a border the other cell is not known: what the edge is off is rounding all the same.
+    const Vec3 middle = is_sphere && d != kNone
                             ? Vec3(0.5 * (grid.cell_position[at(c)] + grid.cell_position[at(d)]))
                             : grid.edge_position[at(edge)];
     // Surface over solid angle: |W y| where y W y = 1, and 1 on the sphere.
@@ -42,9 +40,9 @@ Array<float> bows_of_edges(parallel::Executor& exec, const Grid& grid) {
 }  // namespace
 
 Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
-  check_closed(grid);
   Tiling tiling;
   tiling.grid_ = &grid;
+  tiling.is_closed_ = delos::is_closed(grid);
   tiling.corner_position_ = grid.vertex_position;
   tiling.area_m2_ = grid.cell_area_m2;
   const Array<float> of_edge = bows_of_edges(exec, grid);
@@ -59,7 +57,9 @@ Tiling Tiling::cells(parallel::Executor& exec, const Grid& grid) {
 }
 
 Tiling Tiling::triangles(parallel::Executor& exec, const Grid& grid) {
-  check_closed(grid);
+  DELOS_CHECK(delos::is_closed(grid), ErrorKind::input, "a grid of ", grid.n_cells(),
+              " cells has a border, where its triangles lack corners: carry fields of cells, or "
+              "fields of triangles between the grids before they are culled.");
   Tiling tiling;
   tiling.grid_ = &grid;
   tiling.of_cells_ = false;

@@ -15,11 +15,14 @@ namespace delos::remap {
 /// neighbour k is across it. A view: the grid must outlive it.
 class Tiling {
  public:
-  /// Error(input) for a grid with a border.
+  /// A grid with a border leaves part of the surface out: neighbour kNone.
   static Tiling cells(parallel::Executor& exec, const Grid& grid);
+  /// Error(input) for a grid with a border, where triangles lack corners.
   static Tiling triangles(parallel::Executor& exec, const Grid& grid);
 
   std::int64_t size() const { return static_cast<std::int64_t>(area_m2_.size()); }
+  /// Whether the polygons cover the surface.
+  bool is_closed() const { return is_closed_; }
   const Ellipsoid& surface() const { return grid_->surface; }
   std::span<const Index> corners(std::int64_t i) const {
     return of_cells_ ? grid_->vertices_on_cell.row(i)
@@ -70,6 +73,7 @@ class Tiling {
  private:
   const Grid* grid_ = nullptr;
   bool of_cells_ = true;
+  bool is_closed_ = true;
   std::span<const Vec3> corner_position_;
   std::span<const double> area_m2_;
   Array<float> bow_;                             // side by side; empty for triangles

@@ -221,9 +221,23 @@ void Transfer::require(Order order) const {
               "second order, or add_second_order() first.");
 }
 
-Weights Transfer::weights(parallel::Executor& exec, Order order) const {
+Weights Transfer::weights(parallel::Executor& exec, Order order,
+                          Normalization normalization) const {
   require(order);
-  if (order == Order::first) return first_order_weights(exec, overlaps_);
+  Weights weights =
+      order == Order::first ? first_order_weights(exec, overlaps_) : second_order_weights(exec);
+  if (normalization == Normalization::covered || !overlaps_.is_open) return weights;
+  weights.adds_to_one = false;
+  parallel::for_index(exec, overlaps_.n_targets, kOverlapGrain, [&](std::int64_t i) {
+    const double fraction = overlaps_.covered_fraction(i);
+    for (auto k = weights.offsets[at(i)]; k < weights.offsets[at(i) + 1]; ++k) {
+      weights.value[at(k)] *= fraction;
+    }
+  });
+  return weights;
+}
+
+Weights Transfer::second_order_weights(parallel::Executor& exec) const {
   const Rows rows{overlaps_};
   const std::int64_t n = overlaps_.n_targets;
   std::vector<std::vector<Weight>> blocks(at((n + kOverlapGrain - 1) / kOverlapGrain));
@@ -285,6 +299,9 @@ void Transfer::apply_level(parallel::Executor& exec, std::span<const double> sou
                            std::span<double> target, const TransferOptions& options) const {
   const Rows rows{overlaps_};
   const bool is_first = options.order == Order::first;
+  DELOS_CHECK(!overlaps_.is_open || options.limiter != Limiter::assured_sum, ErrorKind::input,
+              "between grids of which one has a border a sum can't be assured: take the limiter of "
+              "gradients.");
   const bool is_limited = options.limiter != Limiter::none && !is_first;
   const Array<Vec3> slopes = is_first ? Array<Vec3>{} : limited_gradients(exec, source, options);
   const Array<Range> near = is_limited ? ranges(exec, stencils_, source) : Array<Range>{};
@@ -294,6 +311,10 @@ void Transfer::apply_level(parallel::Executor& exec, std::span<const double> sou
   const bool is_assured = is_limited && options.limiter == Limiter::assured_sum;
   Array<Range> bounds(is_assured ? target.size() : 0);
   parallel::for_index(exec, overlaps_.n_targets, kOverlapGrain, [&](std::int64_t i) {
+    if (rows.begin(i) == rows.end(i)) {
+      target[at(i)] = std::numeric_limits<double>::quiet_NaN();
+      return;
+    }
     const double value = row_value(rows, i, source, slopes);
     target[at(i)] = value;
     if (!is_first && !is_limited) return;
@@ -305,6 +326,13 @@ void Transfer::apply_level(parallel::Executor& exec, std::span<const double> sou
     }
   });
   if (is_assured) assure_sum(exec, overlaps_, bounds, target);
+  if (options.normalization == Normalization::whole) scale_to_whole(exec, target);
+}
+
+void Transfer::scale_to_whole(parallel::Executor& exec, std::span<double> target) const {
+  if (!overlaps_.is_open) return;
+  parallel::for_index(exec, overlaps_.n_targets, kOverlapGrain,
+                      [&](std::int64_t i) { target[at(i)] *= overlaps_.covered_fraction(i); });
 }
 
 // NOLINTNEXTLINE(readability-function-size): two fields, and what is done with what they lack
@@ -339,6 +367,7 @@ void Transfer::apply_valid(parallel::Executor& exec, std::span<const double> sou
     }
     target[at(i)] = std::clamp(target[at(i)], range.low, range.high);  // of rounding
   });
+  if (options.normalization == Normalization::whole) scale_to_whole(exec, target);
 }
 
 Array<Vec3> Transfer::limited_gradients(parallel::Executor& exec, std::span<const double> source,

@@ -26,10 +26,17 @@ enum class Limiter {
   assured_sum
 };
 
+/// Of a target that sources with a border cover in part. One that they don't cover gets NaN.
+enum class Normalization {
+  covered,  ///< the mean over what is covered ("fracarea"): constants are kept
+  whole     ///< that mean times the covered fraction ("destarea"): area times value keeps the mass
+};
+
 struct TransferOptions {
   Order order = Order::second;
   Limiter limiter = Limiter::gradient;
   std::int64_t n_levels = 1;  ///< values of a polygon, which stand together: [n, n_levels]
+  Normalization normalization = Normalization::covered;
 };
 
 /// Everything that carries fields from one grid to another, computed once for many fields; needs
@@ -47,16 +54,19 @@ class Transfer {
   void add_second_order(parallel::Executor& exec, const Tiling& source);
   /// Linear transfer as a matrix; that of the second order reaches to the neighbours. Error(state)
   /// when the transfer was made for the first order only.
-  Weights weights(parallel::Executor& exec, Order order) const;
+  /// The rows of targets that are not covered are empty.
+  Weights weights(parallel::Executor& exec, Order order,
+                  Normalization normalization = Normalization::covered) const;
   /// Mass kept within 1e-14, a constant and unchanged polygons to the last bit; with a limiter, and
   /// to first order, no value outside the range of the sources that a target covers and, to second
   /// order, of their neighbours; each level by itself. Values must be finite. The same bits for any
-  /// number of threads. Error(input) when a size does not fit, Error(state) as weights().
+  /// number of threads. Error(input) when a size does not fit or for Limiter::assured_sum
+  /// between grids of which one has a border, Error(state) as weights().
   void apply(parallel::Executor& exec, std::span<const double> source, std::span<double> target,
              const TransferOptions& options = {}) const;
   /// As apply, of one level, where NaN means missing: a target gets the mean over its valid part,
-  /// NaN where that is less than `least_valid` of its area. Sources with a missing neighbour have
-  /// no gradient; the sum of value times valid area is kept, but for what targets below
+  /// NaN where that is less than `least_valid` of what is covered. Sources with a missing neighbour
+  /// have no gradient; the sum of value times valid area is kept, but for what targets below
   /// `least_valid` cover. Error(input) for Limiter::assured_sum, which has to know all.
   void apply_valid(parallel::Executor& exec, std::span<const double> source,
                    std::span<double> target, const TransferOptions& options,
@@ -64,6 +74,8 @@ class Transfer {
 
  private:
   void require(Order order) const;
+  Weights second_order_weights(parallel::Executor& exec) const;
+  void scale_to_whole(parallel::Executor& exec, std::span<double> target) const;
   void apply_level(parallel::Executor& exec, std::span<const double> source,
                    std::span<double> target, const TransferOptions& options) const;
   void check_sizes(std::size_t n_source, std::size_t n_target, std::int64_t n_levels) const;

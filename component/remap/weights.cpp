@@ -17,7 +17,8 @@ double row_value(const Weights& weights, std::int64_t row, std::span<const doubl
   for (std::int64_t k = begin; k < end; ++k) {
     if (std::abs(weights.value[at(k)]) > std::abs(weights.value[at(largest)])) largest = k;
   }
-  const double reference = source[at(weights.column[at(largest)])];
+  // Differences make constants exact, where weights add up to 1.
+  const double reference = weights.adds_to_one ? source[at(weights.column[at(largest)])] : 0.0;
   double sum = 0.0;
   for (std::int64_t k = begin; k < end; ++k) {
     sum += weights.value[at(k)] * (source[at(weights.column[at(k)])] - reference);
@@ -66,6 +67,7 @@ Weights transpose(parallel::Executor& exec, const Weights& weights) {
   ByKey by_column = sort_by_key(exec, weights.column, weights.n_columns);
   Weights result;
   result.n_columns = weights.n_rows();
+  result.adds_to_one = false;
   result.offsets = std::move(by_column.offsets);
   result.column.resize(weights.column.size());
   result.value.resize(weights.value.size());

@@ -12,6 +12,7 @@ namespace delos::remap {
 /// Compressed sparse rows (csr), columns ascending in a row.
 struct Weights {
   std::int64_t n_columns = 0;
+  bool adds_to_one = true;      ///< each row that is not empty, but for rounding
   Array<std::int64_t> offsets;  ///< [n_rows + 1]
   Array<Index> column;          ///< [n]
   Array<double> value;          ///< [n]
@@ -23,8 +24,9 @@ struct Weights {
 Weights first_order_weights(parallel::Executor& exec, const Overlaps& overlaps);
 
 /// `target` = W `source`, summed as r + sum w (source - r), r the source of the largest weight: a
-/// constant stays that constant to the last bit, and a row of one weight 1 copies. Rows must sum to
-/// 1. Error(input) when a size does not fit.
+/// constant stays that constant to the last bit, and a row of one weight 1 copies. Where rows do
+/// not add up to 1, plainly sum w source; 0 for an empty row. Error(input) when a size does not
+/// fit.
 void apply(parallel::Executor& exec, const Weights& weights, std::span<const double> source,
            std::span<double> target);
 

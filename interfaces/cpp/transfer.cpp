@@ -20,6 +20,8 @@ static_assert(static_cast<int>(TransferLimiter::gradient) ==
               static_cast<int>(remap::Limiter::gradient));
 static_assert(static_cast<int>(TransferLimiter::assured_sum) ==
               static_cast<int>(remap::Limiter::assured_sum));
+static_assert(static_cast<int>(TransferNormalization::whole) ==
+              static_cast<int>(remap::Normalization::whole));
 static_assert(static_cast<int>(VelocityRoute::stream_function) ==
               static_cast<int>(remap::VelocityRoute::stream_function));
 static_assert(static_cast<int>(VelocityRoute::helmholtz) ==
@@ -29,7 +31,7 @@ const delos::Grid& engine(const Grid& grid) { return *GridAccess::product(grid).
 
 remap::TransferOptions engine(const TransferOptions& options) {
   return {static_cast<remap::Order>(options.order), static_cast<remap::Limiter>(options.limiter),
-          options.n_levels};
+          options.n_levels, static_cast<remap::Normalization>(options.normalization)};
 }
 
 std::int64_t levels_of(const TransferOptions& options) {
@@ -100,6 +102,7 @@ const Grid& Transfer::from() const { return impl_->from; }
 const Grid& Transfer::to() const { return impl_->to; }
 std::int64_t Transfer::n_overlaps() const { return impl_->transfer.overlaps().size(); }
 std::int64_t Transfer::n_unchanged() const { return impl_->transfer.overlaps().n_unchanged; }
+std::int64_t Transfer::n_unmapped() const { return impl_->transfer.overlaps().n_unmapped; }
 
 void Transfer::check(const Grid& from, const Grid& to) const {
   translated([&] {

@@ -59,6 +59,18 @@ must 'weights alone' sh -c "'$delos' remap coarse.mpas.nc fine.mpas.nc --weights
   test -s w.nc && test ! -e out.nc"
 must 'every kind of grid serves' sh -c "
   '$delos' remap coarse.ugrid_triangles.nc fine.ugrid_cells.nc coarse.mpas.nc out.nc --limiter none >/dev/null"
+must 'a grid of a part' sh -c "'$delos' mesh c.yaml -o . --quiet --set output.name=part \
+  --set 'region.disc.centre=[10 deg, 50 deg]' --set 'region.disc.radius=5000 km'"
+must 'a part and a whole, and the other way round' sh -c "
+  '$delos' remap part.mpas.nc fine.mpas.nc part.mpas.nc out.nc --weights w.nc >stdout.txt &&
+  grep -q '^unmapped  [1-9][0-9]* cells, which no cell of part.mpas.nc covers' stdout.txt &&
+  '$delos' remap fine.mpas.nc part.mpas.nc fine.mpas.nc whole.nc --normalize destarea >stdout.txt &&
+  ! grep -q unmapped stdout.txt"
+rm -f out.nc w.nc
+refuses 'an assured sum on a part' 4 'take the limiter of gradients' \
+  part.mpas.nc fine.mpas.nc part.mpas.nc out.nc --limiter assured_sum
+refuses 'a normalization of no name' 2 'normalize' \
+  part.mpas.nc fine.mpas.nc --weights w.nc --normalize none
 
 echo "$failures failed"
 [ "$failures" = 0 ]

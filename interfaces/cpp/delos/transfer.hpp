@@ -32,10 +32,17 @@ enum class TransferLimiter {
   assured_sum  ///< values are clipped, others take what that took: keeps the order at extremes too
 };
 
+/// Of a cell that the other grid, which has a border, covers in part.
+enum class TransferNormalization {
+  covered,  ///< the mean over what is covered ("fracarea"): constants are kept
+  whole     ///< that mean times the covered fraction ("destarea"): area times value keeps the mass
+};
+
 struct TransferOptions {
   TransferOrder order = TransferOrder::second;
   TransferLimiter limiter = TransferLimiter::gradient;
   std::int64_t n_levels = 1;  ///< values of a cell or an edge, which stand together
+  TransferNormalization normalization = TransferNormalization::covered;
 };
 
 enum class VelocityRoute {
@@ -57,8 +64,8 @@ enum class VelocityRoute {
 class DELOS_API Transfer {
  public:
   /// Of the options `log` is not used, and `progress` and `cancel` in the constructor only.
-  /// Error(input) when the grids lie on different surfaces or one of them has a border (it was
-  /// culled), Error(cancelled).
+  /// Error(input) when the grids lie on different surfaces, Error(cancelled). Grids may have a
+  /// border (they were culled); see apply().
   Transfer(const Grid& from, const Grid& to, const GenerateOptions& options = {});
   Transfer(const Transfer& other);
   Transfer(Transfer&& other) noexcept;
@@ -75,12 +82,15 @@ class DELOS_API Transfer {
   /// Means over cells: [from().n_cells(), n_levels] to [to().n_cells(), n_levels]. The sum of value
   /// times area is kept within 1e-14, a constant and cells that did not change to the last bit;
   /// with a limiter, or to first order, no value leaves the range of the cells below it and (second
-  /// order) of their neighbours. Values must be finite. Error(input) when a size does not fit.
+  /// order) of their neighbours. Values must be finite. Between grids with a border a cell gets the
+  /// mean over what from() covers of it (options.normalization), NaN where that is nothing, and
+  /// gradients come from the neighbours that exist. Error(input) when a size does not fit,
+  /// or for TransferLimiter::assured_sum when a grid has a border.
   void apply(std::span<const double> from_cells, std::span<double> to_cells,
              const TransferOptions& options = {}) const;
   /// Velocities along the edges' normals: [from().n_edges(), n_levels] to [to().n_edges(),
   /// n_levels]. Edges between cells that did not change keep theirs to the last bit, with the sign
-  /// of the normal. Error(input) when a size does not fit.
+  /// of the normal. Error(input) when a size does not fit or a grid has a border.
   void apply_velocity(std::span<const double> from_edges, std::span<double> to_edges,
                       VelocityRoute route = VelocityRoute::vectors,
                       const TransferOptions& options = {}) const;
@@ -89,6 +99,8 @@ class DELOS_API Transfer {
   std::int64_t n_overlaps() const;
   /// Cells of to() that are cells of from().
   std::int64_t n_unchanged() const;
+  /// Cells of to() that from() does not cover: they get NaN.
+  std::int64_t n_unmapped() const;
 
  private:
   struct Impl;
@@ -101,6 +113,7 @@ class DELOS_API Transfer {
 namespace delos {
 using api::Transfer;
 using api::TransferLimiter;
+using api::TransferNormalization;
 using api::TransferOptions;
 using api::TransferOrder;
 using api::VelocityRoute;
