@@ -6,9 +6,9 @@
 namespace delos::remap {
 namespace {
 
-constexpr std::int64_t kNodeGrain = 8192;  // 0.1 ms; part of the answer
+constexpr std::int64_t kNodeGrain = 8192;        // 0.1 ms; part of the answer
+constexpr std::int64_t kMostSolverRounds = 500;  // fifteen to forty are usual
 
-constexpr std::int64_t kMostRounds = 500;  // fifteen to forty are usual
 }  // namespace
 
 Array<double> inverse_diagonal(parallel::Executor& exec, const Network& network) {
@@ -57,7 +57,7 @@ Array<double> solve_laplace(Context& context, const Network& network, std::span<
   if (is_there()) return x;
   Multigrid multigrid(exec, network);
   double before = 0.0;
-  for (std::int64_t round = 0; round < kMostRounds && !is_there(); ++round) {
+  for (std::int64_t round = 0; round < kMostSolverRounds && !is_there(); ++round) {
     context.monitor.check_cancelled();
     multigrid.apply(residual, scaled);
     const double now = sum([&](std::int64_t i) { return residual[at(i)] * scaled[at(i)]; });

@@ -8,14 +8,14 @@
 namespace delos::remap {
 namespace {
 
-constexpr std::int64_t kSweepBlock =
-    8192;  // nodes that see each other in a sweep; part of the answer
+// Nodes that see each other in a sweep; part of the answer.
+constexpr std::int64_t kSweepBlock = 8192;
 constexpr std::int64_t kGroupGrain = 4096;  // groups of some twenty joints, 0.1 ms
 constexpr std::int64_t kFewNodes = 64;      // are swept until solved well enough
 constexpr double kLeastGain = 0.8;          // a level that has more of the last one's nodes is none
 constexpr int kLastSweeps = 8;
-constexpr double kStretch = 1.6;  // 37 rounds on 164 000 cells, as with 1.8; 1.3: 40, 1: 54
-constexpr int kCycles = 2;        // W
+constexpr double kOvercorrection = 1.6;  // 37 rounds on 164 000 cells, as with 1.8; 1.3: 40, 1: 54
+constexpr int kCycles = 2;               // W
 
 // Pairs of nodes, each with the ungrouped neighbour that it is joined to most strongly; one that
 // has none joins the group of its strongest neighbour, so that no hub of many leaves stays. Returns
@@ -194,7 +194,7 @@ void Multigrid::add_correction(std::size_t depth, std::span<const double> right,
   std::fill(coarse.x.begin(), coarse.x.end(), 0.0);
   for (int k = 0; k < kCycles; ++k) cycle(depth + 1, coarse.right, coarse.x);
   parallel::for_index(exec_, network_of(depth).size(), kSweepBlock, [&](std::int64_t i) {
-    x[at(i)] += kStretch * coarse.x[at(level.group[at(i)])];
+    x[at(i)] += kOvercorrection * coarse.x[at(level.group[at(i)])];
   });
 }
 

@@ -12,11 +12,11 @@
 namespace delos::remap {
 namespace {
 
-constexpr std::int64_t kSumGrain = 8192;  // 0.1 ms; part of the answer
-constexpr std::int64_t kFitBlock = 512;   // vertices along the curve, 1 ms of fits
+constexpr std::int64_t kStreamGrain = 8192;  // 0.1 ms; part of the answer
+constexpr std::int64_t kFitBlock = 512;      // vertices along the curve, 1 ms of fits
 
 // A dual edge shorter than this part of its edge would make the projection's weights unbounded.
-constexpr double kShortest = 1e-6;
+constexpr double kShortestEdge = 1e-6;
 // Gradient of the projection against the flow at which it has arrived; 1e-10 is promised.
 constexpr double kArrived = 1e-13;
 
@@ -34,7 +34,7 @@ struct Projection {
   // Of weight times the square of what `value` gives for each edge.
   template <class Value>
   double sum(Value&& value) const {
-    return parallel::sum(exec, grid.n_edges(), kSumGrain, [&](std::int64_t edge) {
+    return parallel::sum(exec, grid.n_edges(), kStreamGrain, [&](std::int64_t edge) {
       return weight[at(edge)] * value(edge) * value(edge);
     });
   }
@@ -44,10 +44,10 @@ Projection project(parallel::Executor& exec, const Grid& grid, std::span<const d
   Projection result{exec, grid, {}, {}};
   result.flux.resize(at(grid.n_edges()));
   result.weight.resize(at(grid.n_edges()));
-  parallel::for_index(exec, grid.n_edges(), kSumGrain, [&](std::int64_t edge) {
+  parallel::for_index(exec, grid.n_edges(), kStreamGrain, [&](std::int64_t edge) {
     const double dv = grid.vertex_distance_m[at(edge)], dc = grid.cell_distance_m[at(edge)];
     result.flux[at(edge)] = normal[at(edge)] * dv;
-    result.weight[at(edge)] = dc / std::max(dv, kShortest * dc);
+    result.weight[at(edge)] = dc / std::max(dv, kShortestEdge * dc);
   });
   return result;
 }
@@ -77,7 +77,7 @@ Array<double> sum_along_tree(const Grid& grid, std::span<const double> flux) {
 // out[v] = sum over its edges of +- weight times value(edge), + where v is the edge's second.
 template <class Value>
 void gather(const Projection& p, Value&& value, Array<double>& out) {
-  parallel::for_index(p.exec, p.grid.n_vertices(), kSumGrain, [&](std::int64_t v) {
+  parallel::for_index(p.exec, p.grid.n_vertices(), kStreamGrain, [&](std::int64_t v) {
     double sum = 0.0;
     for (const Index edge : p.grid.edges_on_vertex[at(v)]) {
       const double term = p.weight[at(edge)] * value(edge);
@@ -104,7 +104,7 @@ void descend(Context& context, const Projection& p, Array<double>& psi) {
               "the flow holds normal velocities that are not finite, which have no potentials: "
               "give edges without a flow 0.");
   const Array<double> more = solve_laplace(context, network, residual, kArrived * std::sqrt(size));
-  parallel::for_index(p.exec, p.grid.n_vertices(), kSumGrain,
+  parallel::for_index(p.exec, p.grid.n_vertices(), kStreamGrain,
                       [&](std::int64_t v) { psi[at(v)] += more[at(v)]; });
 }
 
@@ -154,7 +154,7 @@ StreamFunction stream_function(Context& context, const Grid& grid, std::span<con
 
 Array<double> flow_of(parallel::Executor& exec, const Grid& grid, std::span<const double> psi) {
   Array<double> normal(at(grid.n_edges()));
-  parallel::for_index(exec, grid.n_edges(), kSumGrain, [&](std::int64_t edge) {
+  parallel::for_index(exec, grid.n_edges(), kStreamGrain, [&](std::int64_t edge) {
     const auto [v, w] = grid.vertices_on_edge[at(edge)];
     const double dv = grid.vertex_distance_m[at(edge)];
     normal[at(edge)] = dv > 0.0 ? (psi[at(v)] - psi[at(w)]) / dv : 0.0;

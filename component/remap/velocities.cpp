@@ -63,7 +63,7 @@ Parts parts_of(Context& context, const GridPair& grids, std::span<const double> 
           std::move(rest)};
 }
 
-void add(parallel::Executor& exec, std::span<const double> more, std::span<double> flow) {
+void add_flow(parallel::Executor& exec, std::span<const double> more, std::span<double> flow) {
   parallel::for_index(exec, static_cast<std::int64_t>(flow.size()), kEdgeGrain,
                       [&](std::int64_t edge) { flow[at(edge)] += more[at(edge)]; });
 }
@@ -71,8 +71,8 @@ void add(parallel::Executor& exec, std::span<const double> more, std::span<doubl
 Array<double> by_stream_function(Context& context, const Transfer& transfer, const GridPair& grids,
                                  std::span<const double> normal, const TransferOptions& options) {
   Parts parts = parts_of(context, grids, normal);
-  add(context.exec, by_vectors(context.exec, transfer, grids, parts.rest, options),
-      parts.solenoidal);
+  add_flow(context.exec, by_vectors(context.exec, transfer, grids, parts.rest, options),
+           parts.solenoidal);
   return std::move(parts.solenoidal);
 }
 
@@ -83,7 +83,7 @@ Array<double> by_potentials(Context& context, const GridPair& grids,
   Parts parts = parts_of(context, grids, normal);
   const Array<double> chi = transfer_potential(exec, grids.source, grids.target,
                                                velocity_potential(grids.source, parts.rest));
-  add(exec, gradient_of(exec, grids.target, chi), parts.solenoidal);
+  add_flow(exec, gradient_of(exec, grids.target, chi), parts.solenoidal);
   return std::move(parts.solenoidal);
 }
 
