@@ -31,7 +31,7 @@ Grid cells_of(Context& context, const std::string& path) {
   GridFile file = read_grid_file(context, path);
   DELOS_CHECK(file.mesh || file.grid, ErrorKind::input, path,
               ": the file has triangles with a border, but not the cells around its points. Give "
-              "the grid's MPAS file.");
+              "a file of cells, as MPAS.");
   if (file.grid) return std::move(*file.grid);
   return build_grid(context, file.surface, file.latitude, *file.mesh);
 }

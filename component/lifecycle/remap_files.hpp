@@ -10,7 +10,7 @@
 namespace delos {
 
 struct FieldRemap {
-  std::string from, to;              ///< grid files of any kind; with a border only MPAS
+  std::string from, to;              ///< grid files of any kind; with a border, of cells
   std::string fields, out;           ///< netCDF; both empty: weights alone
   std::string weights;               ///< a file of weights in ESMF's layout; empty: none
   std::string dimension = "nCells";  ///< of the cells in `fields`
