@@ -7,6 +7,7 @@
 #include "app/loaded_grid.hpp"
 #include "dual/edge_angles.hpp"
 #include "dual/validate.hpp"
+#include "lifecycle/culled.hpp"
 #include "lifecycle/require.hpp"
 #include "metrics/open_mesh.hpp"
 #include "triangulation/validate.hpp"
@@ -30,13 +31,11 @@ bool certifies(const FileOrigin& origin) {
 void add_certificate_defects(Context& context, const LoadedGrid& loaded,
                              std::vector<std::string>& out) {
   const GridFile& file = loaded.file;
-  if (!file.mesh) return;
-  if (file.origin.certificate) {
-    const CertifiedMesh subject{file.surface, file.spacing, *file.mesh, file.latitude};
-    for (std::string& defect :
-         certificate_defects(context, subject, loaded.report.quality, *file.origin.certificate)) {
-      out.push_back(std::move(defect));
-    }
+  if (file.origin.certificate && certifies(file.origin)) {
+    std::vector<std::string> defects = visit_mesh(context, file, [&](const CertifiedMesh& mesh) {
+      return certificate_defects(context, mesh, loaded.report.quality, *file.origin.certificate);
+    });
+    std::move(defects.begin(), defects.end(), std::back_inserter(out));
   } else if (!file.origin.digest.empty() && certifies(file.origin)) {
     out.emplace_back("the file has a digest by delos, but no certificate.");
   }
@@ -87,14 +86,13 @@ std::vector<std::string> defects_of(Context& context, const LoadedGrid& loaded, 
     for (const Defect& defect : validate(*file.mesh, file.surface, options)) {
       out.push_back(defect.text);
     }
-    const std::int64_t n_illegal = loaded.report.quality.n_non_delaunay;
-    if (n_illegal > 0) out.push_back(text(n_illegal, " sides are not Delaunay"));
   }
+  const std::int64_t n_illegal = loaded.report.quality.n_non_delaunay;
+  if (n_illegal > 0) out.push_back(text(n_illegal, " sides are not Delaunay"));
   add_certificate_defects(context, loaded, out);
-  double tolerance = file.origin.digest.empty() ? kForeignTolerance : kOwnTolerance;
-  if (file.mesh) {
-    tolerance = std::max(tolerance, rounding_tolerance(file.surface, loaded.report.quality));
-  }
+  if (loaded.grid.n_cells() == 0) return out;  // faces with a border
+  const double tolerance = std::max(file.origin.digest.empty() ? kForeignTolerance : kOwnTolerance,
+                                    rounding_tolerance(file.surface, loaded.report.quality));
   for (const BrokenRule& rule : check_grid(context, loaded.grid, tolerance)) {
     if (is_other_definition(context, loaded.grid, rule, tolerance, notes)) continue;
     out.push_back(to_string(rule));
@@ -113,24 +111,45 @@ std::string verdict(std::size_t n_defects, std::size_t n_missed) {
 
 const char* certificate_note(const GridFile& file, bool is_sound) {
   if (!file.origin.certificate) return ", no certificate recorded";
-  return file.mesh && is_sound ? ", as certified" : "";
+  return is_sound && certifies(file.origin) ? ", as certified" : "";
 }
 
-}  // namespace
-
-namespace {
-
 /// Triangles with a border: no C-grid, so numbers and what no mesh may have.
-int check_triangles(const GridFile& file) {
+int check_triangles(Context& context, GridFile file) {
   const TriangleSet& set = *file.triangles;
   const OpenMeshReport report = measure_open_mesh(file.surface, set.position, set.corners);
+  std::vector<std::string> defects = report.defects;
+  if (file.open_mesh && file.origin.certificate) {
+    add_certificate_defects(context, load_grid(context, file), defects);
+  }
   std::printf("%s", report_text(report).c_str());
-  for (const std::string& defect : report.defects) std::printf("defect: %s\n", defect.c_str());
-  std::printf("%s: %s (%s, %lld triangles with a border%s)\n\n", file.path.c_str(),
-              verdict(report.defects.size(), 0).c_str(), file.origin.format.c_str(),
+  for (const std::string& defect : defects) std::printf("defect: %s\n", defect.c_str());
+  std::printf("%s: %s (%s, %lld triangles with a border%s%s)\n\n", file.path.c_str(),
+              verdict(defects.size(), 0).c_str(), file.origin.format.c_str(),
               static_cast<long long>(report.n_triangles),
-              file.n_turned == 0 ? "" : ", clockwise in the file");
-  return report.defects.empty() ? kSuccess : kDefects;
+              file.n_turned == 0 ? "" : ", clockwise in the file",
+              file.open_mesh ? certificate_note(file, defects.empty()) : "");
+  return defects.empty() ? kSuccess : kDefects;
+}
+
+int check_grid_file(Context& context, const Arguments& arguments, GridFile file) {
+  LoadedGrid loaded = load_grid(context, std::move(file));
+  Notes notes;
+  std::vector<std::string> defects = defects_of(context, loaded, notes);
+  const Requirements required = requirements_of(arguments, loaded.file.origin, defects);
+  std::vector<std::string>& missed = loaded.report.missed;
+  missed = missed_requirements(required, loaded.report.quality);
+  std::printf("%s", report_text(loaded.report).c_str());
+  for (const std::string& defect : defects) std::printf("defect: %s\n", defect.c_str());
+  for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
+  for (const std::string& sentence : missed) std::printf("missed: %s\n", sentence.c_str());
+  std::printf("%s: %s (%s, %lld cells%s%s)\n\n", loaded.file.path.c_str(),
+              verdict(defects.size(), missed.size()).c_str(), loaded.file.origin.format.c_str(),
+              static_cast<long long>(loaded.report.quality.n_vertices),
+              loaded.report.quality.has_border() ? ", with a border" : "",
+              certificate_note(loaded.file, defects.empty()));
+  if (!defects.empty()) return kDefects;
+  return missed.empty() ? kSuccess : exit_status(ErrorKind::quality);
 }
 
 }  // namespace
@@ -142,32 +161,10 @@ int run_check(const Arguments& arguments, const std::atomic<bool>& cancel) {
   int status = kSuccess;
   for (const std::string& path : grid_files(arguments.file)) {
     GridFile file = read_grid_file(context, path);
-    if (file.triangles) {
-      if (check_triangles(file) != kSuccess) status = kDefects;
-      continue;
-    }
-    LoadedGrid loaded = load_grid(context, std::move(file));
-    Notes notes;
-    std::vector<std::string> defects = defects_of(context, loaded, notes);
-    const Requirements required = requirements_of(arguments, loaded.file.origin, defects);
-    std::vector<std::string>& missed = loaded.report.missed;
-    if (loaded.file.mesh) {
-      missed = missed_requirements(required, loaded.report.quality);
-      std::printf("%s", report_text(loaded.report).c_str());
-    }
-    for (const std::string& defect : defects) std::printf("defect: %s\n", defect.c_str());
-    for (const std::string& note : notes) std::printf("note: %s\n", note.c_str());
-    for (const std::string& sentence : missed) std::printf("missed: %s\n", sentence.c_str());
-    std::printf("%s: %s (%s, %lld cells%s%s)\n\n", path.c_str(),
-                verdict(defects.size(), missed.size()).c_str(), loaded.file.origin.format.c_str(),
-                static_cast<long long>(loaded.grid.n_cells()),
-                loaded.file.mesh ? "" : ", with a border: the triangulation is not measured",
-                certificate_note(loaded.file, defects.empty()));
-    if (!defects.empty()) {
-      status = kDefects;
-    } else if (!missed.empty() && status == kSuccess) {
-      status = exit_status(ErrorKind::quality);
-    }
+    const bool is_triangles = file.triangles.has_value();
+    const int found = is_triangles ? check_triangles(context, std::move(file))
+                                   : check_grid_file(context, arguments, std::move(file));
+    if (status == kSuccess || found == kDefects) status = found;
   }
   return status;
 }

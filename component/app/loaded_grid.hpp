@@ -12,11 +12,12 @@ namespace delos::app {
 struct LoadedGrid {
   GridFile file;
   Grid grid;      ///< as the file has it, or built from the file's triangulation
-  Report report;  ///< measured anew; quality only where the grid is closed
+  Report report;  ///< measured anew
 };
 
 /// Error(input) for faces with a border, which have no C-grid.
 LoadedGrid load_grid(Context& context, const std::string& path);
+/// The same; faces with a border (UGRID) are measured, and there is no grid.
 LoadedGrid load_grid(Context& context, GridFile file);
 
 }  // namespace delos::app

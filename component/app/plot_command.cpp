@@ -28,7 +28,6 @@ int run_plot(const Arguments& arguments, const std::atomic<bool>& cancel) {
                                &elevation_m, kView};
   const std::string stem = fs::path(loaded.file.path).stem().string();
   for (const char* const picture : {"globe", "map", "histograms"}) {
-    if (!loaded.file.mesh && std::string(picture) == "histograms") continue;
     monitor.check_cancelled();
     const fs::path path = fs::path(folder) / text(stem, ".", picture, ".png");
     draw_picture(subject, picture, path.string());

@@ -17,7 +17,7 @@
 #include "io/scrip.hpp"
 #include "io/ugrid.hpp"
 #include "io/vtu.hpp"
-#include "lifecycle/domain.hpp"
+#include "lifecycle/culled.hpp"
 #include "lifecycle/grid_file.hpp"
 #include "lifecycle/outputs.hpp"
 #include "lifecycle/version.hpp"
@@ -58,10 +58,14 @@ Provenance provenance_of(Context& context, const Conversion& conversion, const G
   return out;
 }
 
-/// What was measured.
-void certify(Context& context, const GridFile& file, Provenance& provenance) {
+/// What was measured of what the new file holds: of cells with a border perhaps the triangles
+/// alone.
+void certify(Context& context, const GridFile& file, FileKind kind, Provenance& provenance) {
+  const auto measure = [&](const CertifiedMesh& mesh) { return measure_quality(context, mesh); };
+  const bool is_open = !file.mesh && kind == FileKind::ugrid_triangles;
   const Quality quality =
-      measure_quality(context, file.surface, file.spacing, *file.mesh, file.latitude);
+      is_open ? measure(CulledMesh(context.exec, *file.grid, CulledMesh::Part::triangles).subject())
+              : visit_mesh(context, file, measure);
   provenance.certificate = file_certificate(certificate(quality));
 }
 
@@ -196,8 +200,8 @@ void write_mpas_layers(Context& context, const GridFile& file, const Conversion&
 
 /// The triangles, with depths where they are known and can be written; of a grid with a border
 /// those between three cells, and the cells in them.
-TriangleSet triangles_for(const GridFile& file, FileKind kind) {
-  const Mesh open = file.mesh ? Mesh() : triangles_of(*file.grid);
+TriangleSet triangles_for(parallel::Executor& exec, const GridFile& file, FileKind kind) {
+  const Mesh open = file.mesh ? Mesh() : triangles_of(exec, *file.grid);
   TriangleSet set = triangle_set(file.surface, file.latitude, file.mesh ? *file.mesh : open);
   set.depth_m = file.depth_m;
   set.level_m = file.level_m;
@@ -216,13 +220,15 @@ void write_cells_or_mesh(Context& context, const GridFile& file, const Conversio
   const std::string& path = conversion.to;
   Provenance provenance = provenance_of(context, conversion, file);
   if (!holds_cells(conversion.kind) && conversion.kind != FileKind::ugrid_triangles) {
-    return write_triangles(path, conversion.kind, triangles_for(file, conversion.kind));
+    return write_triangles(path, conversion.kind,
+                           triangles_for(context.exec, file, conversion.kind));
   }
-  if (file.mesh) certify(context, file, provenance);
+  certify(context, file, conversion.kind, provenance);
   if (conversion.kind == FileKind::ugrid_triangles) {
     const std::vector<double> spacing_m =
         file.mesh ? spacing_by_triangle(file) : spacing_by_triangle(*file.grid);
-    return write_ugrid_triangles(path, file.mesh ? *file.mesh : triangles_of(*file.grid),
+    return write_ugrid_triangles(path,
+                                 file.mesh ? *file.mesh : triangles_of(context.exec, *file.grid),
                                  {file.surface, file.latitude, nullptr, spacing_m}, provenance,
                                  {netcdf::Format::cdf5, true, &context.exec});
   }
@@ -243,7 +249,7 @@ void write_cells_or_mesh(Context& context, const GridFile& file, const Conversio
 }
 
 /// What the file has and the kind does not hold, in words.
-std::vector<std::string> left_out(const GridFile& file, FileKind kind) {
+std::vector<std::string> left_out(parallel::Executor& exec, const GridFile& file, FileKind kind) {
   std::vector<std::string> out;
   const MpasVertical vertical = vertical_of(file);
   const bool has_ocean = vertical.ocean() || !file.depth_m.empty() ||
@@ -258,8 +264,8 @@ std::vector<std::string> left_out(const GridFile& file, FileKind kind) {
   if (is_closed(*file.grid)) return out;
   out.emplace_back("the outlines of the cells along the border (no way back to cells)");
   if (kind == FileKind::ugrid_triangles) return out;
-  const auto n_lone =
-      file.grid->n_cells() - static_cast<std::int64_t>(triangles_for(file, kind).position.size());
+  const auto n_lone = file.grid->n_cells() -
+                      static_cast<std::int64_t>(triangles_for(exec, file, kind).position.size());
   if (n_lone > 0) out.push_back(text(n_lone, n_lone == 1 ? " cell" : " cells", " of no triangle"));
   return out;
 }
@@ -288,7 +294,7 @@ std::vector<std::string> convert_grid_file(Context& context, const Conversion& c
   } else {
     write_cells_or_mesh(context, file, conversion);
   }
-  return left_out(file, conversion.kind);
+  return left_out(context.exec, file, conversion.kind);
 }
 
 }  // namespace delos

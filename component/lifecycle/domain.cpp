@@ -123,23 +123,6 @@ ReportSection section_of(const domain::CoastReport& coast) {
   return section;
 }
 
-/// New ids of some old ones; kNone for those that are gone.
-Index id_in(const Array<Index>& old_ids, Index old) {
-  const auto found = std::find(old_ids.begin(), old_ids.end(), old);
-  return found == old_ids.end() ? kNone : static_cast<Index>(found - old_ids.begin());
-}
-
-void rename(const DomainIds& ids, Extreme& extreme) {
-  if (extreme.element == Element::edge) {
-    const Index a = id_in(ids.cells, extreme.id), b = id_in(ids.cells, extreme.other);
-    const bool is_there = a != kNone && b != kNone;
-    extreme.id = is_there ? std::min(a, b) : kNone;
-    extreme.other = is_there ? std::max(a, b) : kNone;
-  } else {
-    extreme.id = id_in(ids.vertices, extreme.id);
-  }
-}
-
 }  // namespace
 
 void fit_mesh_to_coast(Context& context, const Settings& settings, const Inputs& inputs, Mesh& mesh,
@@ -189,45 +172,6 @@ DomainIds cull_to_cells(Context& context, std::span<const Index> cells, Grid& gr
   domain::Culled culled = domain::cull(context.exec, grid, cells);
   grid = std::move(culled.grid);
   return {std::move(culled.old_cell), std::move(culled.old_vertex)};
-}
-
-Certificate in_domain(const DomainIds& ids, Certificate certificate) {
-  rename(ids, certificate.angle_max_deg);
-  rename(ids, certificate.dual_ratio_min);
-  rename(ids, certificate.stagger_max);
-  if (certificate.relative_edge_min) rename(ids, *certificate.relative_edge_min);
-  return certificate;
-}
-
-Mesh triangles_of(const Grid& grid) {
-  Mesh mesh;
-  mesh.vertices.resize(grid.cell_position.size());
-  for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {
-    const Vec3& p = grid.cell_position[i];
-    const double spacing_m = grid.cell_spacing_m.empty() ? 0.0 : grid.cell_spacing_m[i];
-    mesh.vertices[i] = {p.x(), p.y(), p.z(), spacing_m / grid.surface.scale_m()};
-  }
-  const auto is_triangle = [&](Index vertex) {
-    const auto& cells = grid.cells_on_vertex[at(vertex)];
-    return std::find(cells.begin(), cells.end(), kNone) == cells.end();
-  };
-  std::vector<Index> triangle(grid.vertex_position.size(), kNone);
-  Index n = 0;
-  for (Index vertex = 0; vertex < grid.n_vertices(); ++vertex) {
-    if (is_triangle(vertex)) triangle[at(vertex)] = n++;
-  }
-  mesh.triangles.resize(at(n));
-  for (Index vertex = 0; vertex < grid.n_vertices(); ++vertex) {
-    if (triangle[at(vertex)] == kNone) continue;
-    Triangle& out = mesh.triangle(triangle[at(vertex)]);
-    out.vertex = grid.cells_on_vertex[at(vertex)];
-    for (std::size_t j = 0; j < 3; ++j) {
-      // Edge j lies between the cells j - 1 and j, opposite corner j + 1.
-      const auto& ends = grid.vertices_on_edge[at(grid.edges_on_vertex[at(vertex)][j])];
-      out.neighbour[(j + 1) % 3] = triangle[at(ends[0] == vertex ? ends[1] : ends[0])];
-    }
-  }
-  return mesh;
 }
 
 }  // namespace delos

@@ -8,7 +8,6 @@
 #include "dual/grid.hpp"
 #include "lifecycle/inputs.hpp"
 #include "lifecycle/settings.hpp"
-#include "metrics/certificate.hpp"
 #include "metrics/report.hpp"
 #include "triangulation/mesh.hpp"
 
@@ -33,13 +32,5 @@ DomainIds cull_to_domain(Context& context, const Settings& settings, const Input
 
 /// The same for cells selected before.
 DomainIds cull_to_cells(Context& context, std::span<const Index> cells, Grid& grid);
-
-/// The certificate of the triangulation with the ids of the culled grid: kNone for elements that
-/// it does not have. Its values hold for all the grid's elements.
-Certificate in_domain(const DomainIds& ids, Certificate certificate);
-
-/// The triangles between cells of a culled grid as a mesh with a border (neighbour kNone); vertex i
-/// is cell i, which may belong to no triangle.
-Mesh triangles_of(const Grid& grid);
 
 }  // namespace delos

@@ -22,6 +22,14 @@ std::array<Index, 2> ends_of(const Mesh& mesh, Index tri, int k, EdgeEnds ends) 
              : sorted(tri, triangle.neighbour[at(k)]);
 }
 
+/// Whether the side is not of two cells, so that the file has no edge for it, or one of no spacing.
+bool is_at_border(const Mesh& mesh, Index tri, int k, EdgeEnds ends) {
+  const Triangle& triangle = mesh.triangle(tri);
+  if (ends == EdgeEnds::triangles) return triangle.neighbour[at(k)] == kNone;
+  return triangle.vertex[at(next_corner(k))] == kNone ||
+         triangle.vertex[at(previous_corner(k))] == kNone;
+}
+
 }  // namespace
 
 Array<double> spacing_at_edges(parallel::Executor& exec, const SpacingOnSurface& spacing,
@@ -56,6 +64,7 @@ SideSpacing spacing_by_side(const Mesh& mesh, const FileEdges& file, double scal
   auto by_side = std::make_shared<std::vector<std::array<double, 3>>>(mesh.triangles.size());
   for (Index tri = 0; tri < mesh.n_triangles(); ++tri) {
     for (int k = 0; k < 3; ++k) {
+      if (is_at_border(mesh, tri, k, file.ends)) continue;
       const auto wanted = ends_of(mesh, tri, k, file.ends);
       const auto found =
           std::lower_bound(order.begin(), order.end(), wanted,

@@ -8,6 +8,7 @@
 #include "dual/build.hpp"
 #include "dual/digest.hpp"
 #include "lifecycle/baselines.hpp"
+#include "lifecycle/culled.hpp"
 #include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/estimate.hpp"
 #include "lifecycle/inputs.hpp"
@@ -209,6 +210,13 @@ void build_dual(Context& context, Product& product, const DomainSource& source) 
   }
 }
 
+/// A culled grid is what the user gets, so it is what is measured.
+void measure_part(Context& context, Product& product) {
+  const Phase phase(context.monitor, "quality", product.grid->n_cells());
+  product.report.quality = measure_culled(context, *product.grid);
+  product.report.n_cells_made = product.mesh.n_vertices();
+}
+
 /// After the other sections, since it is made anew at a restart.
 void add_digest(Context& context, Product& product) {
   const Phase phase(context.monitor, "digest", product.grid->n_cells());
@@ -222,7 +230,7 @@ FileNotes file_notes(const Product& product, const std::string& command) {
     notes.inputs.push_back({file.path, file.sha256});
   }
   notes.command = command;
-  notes.certificate = certificate_of(product);
+  notes.certificate = certificate(product.report.quality);
   notes.report_text = report_text(product.report);
   notes.report_json = report_json(product.report);
   return notes;
@@ -283,15 +291,20 @@ void finish(Context& context, Product& product, const GenerateScope& scope,
             const DomainSource& source) {
   Report& report = product.report;
   report.digest = digest(product.mesh);
-  {
-    const Phase phase(context.monitor, "quality", product.mesh.n_vertices());
-    report.quality = measure_quality(context, product.settings.surface, product.spacing,
-                                     product.mesh, product.settings.latitude);
-  }
-  judge(context, product, scope.directory);
   const Settings& settings = product.settings;
-  if (scope.with_dual || settings.domain || settings.region || settings.layers) {
+  const bool is_part = settings.domain || settings.region;
+  if (!is_part) {
+    const Phase phase(context.monitor, "quality", product.mesh.n_vertices());
+    report.quality = measure_quality(context, settings.surface, product.spacing, product.mesh,
+                                     settings.latitude);
+    judge(context, product, scope.directory);
+  }
+  if (scope.with_dual || is_part || settings.layers) {
     build_dual(context, product, source);
+    if (is_part) {
+      measure_part(context, product);
+      judge(context, product, scope.directory);
+    }
     build_layers(context, product, source);
     add_digest(context, product);
     if (scope.with_dual) build_partitions(context, product);
@@ -300,11 +313,6 @@ void finish(Context& context, Product& product, const GenerateScope& scope,
 }
 
 }  // namespace
-
-Certificate certificate_of(const Product& product) {
-  Certificate whole = certificate(product.report.quality);
-  return product.domain ? in_domain(*product.domain, whole) : whole;
-}
 
 OutputContent output_content(const Product& product, const std::string& command) {
   return {product.settings,

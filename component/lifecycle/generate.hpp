@@ -84,9 +84,6 @@ struct SavedProduct {
 /// and phases are this call's: phases quality and dual. No input is read.
 Product resume(Context& context, const Settings& settings, SavedProduct saved);
 
-/// The certificate, ids as in the product's grid.
-Certificate certificate_of(const Product& product);
-
 /// What goes into the product's files; refers to the product. `command` is for their history.
 OutputContent output_content(const Product& product, const std::string& command);
 

@@ -87,10 +87,10 @@ void set_position(Vertex& vertex, const Vec3& p) {
   vertex.z = p.z();
 }
 
-void read_spacing(GridFile& out, const FileEdges& edges) {
+void read_spacing(GridFile& out, const Mesh& mesh, const FileEdges& edges) {
   if (edges.spacing_m.empty()) return;
   try {
-    out.spacing = spacing_by_side(*out.mesh, edges, out.surface.scale_m());
+    out.spacing = spacing_by_side(mesh, edges, out.surface.scale_m());
   } catch (const Error& error) {
     throw Error(error.kind(), text(out.path, ": ", error.what()));
   }
@@ -109,7 +109,7 @@ void read_mpas_into(GridFile& out) {
         grid.cell_spacing_m.empty() ? 0.0 : grid.cell_spacing_m[i] / grid.surface.scale_m();
   }
   out.mesh = mesh_from_triangles(std::move(vertices), grid.cells_on_vertex);
-  read_spacing(out, {grid.cells_on_edge, EdgeEnds::vertices, grid.edge_spacing_m});
+  read_spacing(out, *out.mesh, {grid.cells_on_edge, EdgeEnds::vertices, grid.edge_spacing_m});
 }
 
 /// Corners of triangular faces.
@@ -210,10 +210,15 @@ void take_faces(parallel::Executor& exec, GridFile& out, const FaceMesh& faces,
   if (all_triangles) {
     Array<Vertex> nodes = surface_points(out, faces.node);
     const Corners corners = face_corners(faces);
-    if (!is_closed(corners)) return take_open(out, nodes, corners);
-    out.mesh = mesh_from_triangles(std::move(nodes), corners);
-    if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::vertices, edges->edge_spacing_m});
-    return;
+    const bool has_border = !is_closed(corners);
+    if (has_border) take_open(out, nodes, corners);
+    if (has_border && edges == nullptr) return;
+    std::optional<Mesh>& mesh = has_border ? out.open_mesh : out.mesh;
+    mesh = mesh_from_triangles(std::move(nodes), corners,
+                               has_border ? Border::allowed : Border::refused);
+    if (edges == nullptr) return;
+    return read_spacing(out, *mesh,
+                        {edges->nodes_on_edge, EdgeEnds::vertices, edges->edge_spacing_m});
   }
   DELOS_CHECK(
       faces.face_centre.size() == n_faces, ErrorKind::input, out.path,
@@ -225,7 +230,8 @@ void take_faces(parallel::Executor& exec, GridFile& out, const FaceMesh& faces,
       std::any_of(corners.begin(), corners.end(), [](const auto& row) { return row[2] == kNone; });
   if (has_border) return take_cells(exec, out, faces, edges);
   out.mesh = mesh_from_triangles(std::move(centres), corners);
-  if (edges) read_spacing(out, {edges->nodes_on_edge, EdgeEnds::triangles, edges->edge_spacing_m});
+  if (edges == nullptr) return;
+  read_spacing(out, *out.mesh, {edges->nodes_on_edge, EdgeEnds::triangles, edges->edge_spacing_m});
 }
 
 void read_vtu_into(parallel::Executor& exec, GridFile& out) {

@@ -30,13 +30,16 @@ struct GridFile {
   LatitudeKind latitude = LatitudeKind::geodetic;
   /// The triangulation; none for a grid with a border, which is not a closed surface.
   std::optional<Mesh> mesh;
-  /// The spacing that was asked for at the mesh's sides; null where the file does not say.
+  /// The spacing that was asked for at the sides of `mesh` or `open_mesh`; null where the file does
+  /// not say.
   SideSpacing spacing;
   /// The C-grid as the file has it (MPAS), or made of Voronoi cells with a border (other files of
   /// cells); none for other files of the whole surface, which hold no C-grid tables.
   std::optional<Grid> grid;
   /// Triangles with a border, points of no triangle left out; then there is neither of the others.
   std::optional<TriangleSet> triangles;
+  /// These, numbered as in the file and with all its points; UGRID only, which certifies them.
+  std::optional<Mesh> open_mesh;
   std::int64_t n_turned =
       0;  ///< triangles, or cells with a border, that were clockwise in the file
   std::vector<double> depth_m, level_m;  ///< at the mesh's vertices; FESOM2 only, else empty

@@ -22,6 +22,7 @@
 #include "io/spacing_file.hpp"
 #include "io/ugrid.hpp"
 #include "io/vtu.hpp"
+#include "lifecycle/culled.hpp"
 #include "lifecycle/edge_spacing.hpp"
 #include "lifecycle/require.hpp"
 #include "lifecycle/version.hpp"
@@ -62,11 +63,7 @@ Provenance provenance_of(const OutputContent& content) {
 }
 
 /// The certificate of the grid as it was carried to a sphere, which is not that of the original.
-Certificate certify_carried(Context& context, const Settings& settings, const Mesh& mesh,
-                            const Grid& grid) {
-  const SideSpacing spacing = spacing_by_side(
-      mesh, {grid.cells_on_edge, EdgeEnds::vertices, grid.edge_spacing_m}, grid.surface.scale_m());
-  const Quality quality = measure_quality(context, grid.surface, spacing, mesh, grid.latitude);
+Certificate certify_carried(Context& context, const Settings& settings, const Quality& quality) {
   const std::string missed =
       missed_message("the grid on the sphere of equal area, which MPAS needs,", settings,
                      missed_requirements(settings.require.bounds, quality));
@@ -102,14 +99,18 @@ Grid carry_to_sphere(Context& context, const OutputContent& content, Provenance&
   grid.edge_spacing_m = spacing_at_edges(
       context.exec, {surface, content.spacing, content.mesh.vertices}, grid.cells_on_edge,
       [&](const Vec3& p) { return map.stretch(p) * sphere.scale_m(); });
-  const Certificate carried = certify_carried(context, content.settings, mesh, grid);
+  Quality quality;
   if (content.domain == nullptr) {
-    provenance.certificate = file_certificate(carried);
+    const SideSpacing spacing =
+        spacing_by_side(mesh, {grid.cells_on_edge, EdgeEnds::vertices, grid.edge_spacing_m},
+                        grid.surface.scale_m());
+    quality = measure_quality(context, grid.surface, spacing, mesh, grid.latitude);
   } else {
-    const DomainIds ids = cull_to_cells(context, content.domain->cells, grid);
-    provenance.certificate = file_certificate(in_domain(ids, carried));
+    cull_to_cells(context, content.domain->cells, grid);
     grid.cell_ring = content.grid->cell_ring;
+    quality = measure_culled(context, grid);
   }
+  provenance.certificate = file_certificate(certify_carried(context, content.settings, quality));
   return grid;
 }
 
@@ -175,12 +176,27 @@ UgridOptions ugrid_options(Context& context, const OutputContent& content) {
   return {format_of(content), content.mesh.n_vertices() <= kMaxVerticesWithBounds, &context.exec};
 }
 
+/// Of a culled grid the triangles alone, with a certificate of these.
+void write_ugrid_triangles_file(Context& context, const OutputContent& content,
+                                const std::string& path) {
+  const UgridSurface surface{content.settings.surface, content.settings.latitude, &content.spacing};
+  Provenance provenance = provenance_of(content);
+  if (content.domain == nullptr) {
+    return write_ugrid_triangles(path, content.mesh, surface, provenance,
+                                 ugrid_options(context, content));
+  }
+  const CulledMesh part(context.exec, *content.grid, CulledMesh::Part::triangles);
+  provenance.certificate = file_certificate(certificate(measure_quality(context, part.subject())));
+  write_ugrid_triangles(path, part.subject().mesh, surface, provenance,
+                        ugrid_options(context, content));
+}
+
 /// Of a culled grid the wet part, without points of no triangle, as FESOM2 wants it; with the
 /// depths of an ocean's layers.
-TriangleSet wet_triangles(const OutputContent& content) {
+TriangleSet wet_triangles(parallel::Executor& exec, const OutputContent& content) {
   const Settings& settings = content.settings;
   const bool is_culled = content.domain != nullptr;
-  const Mesh part = is_culled ? triangles_of(*content.grid) : Mesh();
+  const Mesh part = is_culled ? triangles_of(exec, *content.grid) : Mesh();
   TriangleSet set =
       triangle_set(settings.surface, settings.latitude, is_culled ? part : content.mesh);
   if (content.layers != nullptr && content.layers->ocean) {
@@ -296,7 +312,7 @@ class OutputWriter {
     add(kind, [&](const std::string& path) { write_text_atomically(path, value); });
   }
   void write_fesom_folder() {
-    const TriangleSet set = wet_triangles(content_);
+    const TriangleSet set = wet_triangles(context_.exec, content_);
     const std::string folder = text(content_.settings.output.name, ".fesom");
     fesom_folder_.emplace(directory_ / folder);
     for (const FesomFile& file : fesom_files(set)) {
@@ -356,19 +372,14 @@ std::vector<std::string> write_outputs(Context& context, const OutputContent& co
 
 void write_grid_file(Context& context, const OutputContent& content, FileKind kind,
                      const std::string& path) {
-  const Settings& settings = content.settings;
   const netcdf::Format format = format_of(content);
-  const Mesh part = content.domain != nullptr ? triangles_of(*content.grid) : Mesh();
-  const Mesh& mesh = content.domain != nullptr ? part : content.mesh;
-  const auto triangles = [&] { return wet_triangles(content); };
+  const auto triangles = [&] { return wet_triangles(context.exec, content); };
   switch (kind) {
     case FileKind::mpas:
       write_mpas_file(context, content, path);
       return;
     case FileKind::ugrid_triangles:
-      write_ugrid_triangles(path, mesh, {settings.surface, settings.latitude, &content.spacing},
-                            provenance_of(content), ugrid_options(context, content));
-      return;
+      return write_ugrid_triangles_file(context, content, path);
     case FileKind::ugrid_cells:
       DELOS_ASSERT(content.grid != nullptr);
       write_ugrid_cells(path, *content.grid, provenance_of(content),

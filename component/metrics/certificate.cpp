@@ -26,10 +26,12 @@ std::string formatted(const char* format, const Values&... values) {
   return buffer;
 }
 
-// One edge of the mesh with its two triangles alone, which is all that its measures depend on.
+// One edge of the mesh with its two triangles alone (one, where a border has no more), which is all
+// that its measures depend on.
 struct EdgePatch {
   Mesh mesh;
-  Index tri;  // in the whole mesh, of triangle 0 here
+  std::vector<Vec3> centre;  // of the two, where a border gives them
+  Index tri;                 // in the whole mesh, of triangle 0 here
   int side;
 };
 
@@ -45,27 +47,36 @@ std::optional<std::pair<Index, int>> find_side(const Mesh& mesh, Index a, Index 
   return std::nullopt;
 }
 
-std::optional<EdgePatch> edge_patch(const Mesh& mesh, Index a, Index b) {
+std::optional<EdgePatch> edge_patch(const CertifiedMesh& subject, Index a, Index b) {
+  const Mesh& mesh = subject.mesh;
+  if (a < 0 || b < 0) return std::nullopt;
   const auto found = find_side(mesh, a, b);
   if (!found) return std::nullopt;
   const auto [tri, side] = *found;
-  const Triangle& left = mesh.triangle(tri);
-  const Triangle& right = mesh.triangle(left.neighbour[at(side)]);
-  EdgePatch out{{}, tri, side};
+  EdgePatch out{{}, {}, tri, side};
   std::vector<Index> ids;
   const auto local = [&](Index vertex) {
+    if (vertex == kNone) return kNone;
     const auto known = std::find(ids.begin(), ids.end(), vertex);
     if (known != ids.end()) return static_cast<Index>(known - ids.begin());
     ids.push_back(vertex);
     out.mesh.vertices.push_back(mesh.vertices[at(vertex)]);
     return static_cast<Index>(ids.size() - 1);
   };
-  Triangle first{{}, {kNone, kNone, kNone}}, second = first;
-  for (std::size_t k = 0; k < 3; ++k) first.vertex[k] = local(left.vertex[k]);
-  for (std::size_t k = 0; k < 3; ++k) second.vertex[k] = local(right.vertex[k]);
-  first.neighbour[at(side)] = 1;
-  second.neighbour[at(side_towards(right, tri))] = 0;
-  out.mesh.triangles = {first, second};
+  const auto add = [&](Index from) {
+    Triangle copy{{}, {kNone, kNone, kNone}};
+    for (std::size_t k = 0; k < 3; ++k) copy.vertex[k] = local(mesh.triangle(from).vertex[k]);
+    out.mesh.triangles.push_back(copy);
+    if (subject.border != nullptr && !subject.border->centre.empty()) {
+      out.centre.push_back(subject.border->centre[at(from)]);
+    }
+  };
+  add(tri);
+  const Index beyond = mesh.triangle(tri).neighbour[at(side)];
+  if (beyond == kNone) return out;
+  add(beyond);
+  out.mesh.triangles[0].neighbour[at(side)] = 1;
+  out.mesh.triangles[1].neighbour[at(side_towards(mesh.triangle(beyond), tri))] = 0;
   return out;
 }
 
@@ -75,16 +86,18 @@ struct EdgeValues {
 
 std::optional<EdgeValues> values_at_edge(Context& context, const CertifiedMesh& subject, Index a,
                                          Index b) {
-  const auto patch = edge_patch(subject.mesh, a, b);
+  const auto patch = edge_patch(subject, a, b);
   if (!patch) return std::nullopt;
   SideSpacing spacing;
   if (subject.spacing) {
     spacing = [&](Index, int) { return subject.spacing(patch->tri, patch->side); };
   }
-  const Subject alone{subject.surface, patch->mesh, nullptr, &spacing};
+  const MeshBorder border{patch->centre, nullptr};
+  const Subject alone{subject.surface, patch->mesh, nullptr, &spacing,
+                      subject.border != nullptr ? &border : nullptr};
   metrics::Workspace work;
   measure_triangles(context.exec, alone, work);
-  const metrics::EdgeSums sums = measure_edges(context.exec, alone, work);
+  const metrics::EdgeSums sums = measure_side(alone, work, 0, patch->side);
   return EdgeValues{sums.relative_min.value, sums.dual_ratio_min.value, sums.stagger_max.value};
 }
 
@@ -170,7 +183,9 @@ class Comparison {
   Vec3 position(Index cell) const { return subject_.mesh.position(cell); }
 
   void compare_triangle(const char* name, const Extreme& recorded, const Extreme& measured) {
-    if (recorded.id < 0 || recorded.id >= subject_.mesh.n_triangles()) {
+    const Subject whole{subject_.surface, subject_.mesh, nullptr, nullptr, subject_.border};
+    if (recorded.id < 0 || recorded.id >= subject_.mesh.n_triangles() ||
+        !whole.is_whole(recorded.id)) {
       add(name, "is said to be at ", describe(recorded), ", which is not there");
       return;
     }

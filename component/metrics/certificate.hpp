@@ -40,14 +40,6 @@ std::string describe(const Extreme& extreme);
 /// The verdict, two lines of at most 68 columns: well centred or not, spacing kept or not.
 std::vector<std::string> certificate_text(const Certificate& certificate);
 
-/// A mesh that came from somewhere.
-struct CertifiedMesh {
-  const Ellipsoid& surface;
-  const SideSpacing& spacing;  ///< null: not known
-  const Mesh& mesh;
-  LatitudeKind latitude = LatitudeKind::geodetic;
-};
-
 /// How much a measure of a grid may change, relative, when its coordinates are rounded into a file
 /// and read back.
 double rounding_tolerance(const Ellipsoid& surface, const Quality& quality);

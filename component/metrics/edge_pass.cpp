@@ -13,7 +13,8 @@ namespace {
 // surface ball by more than this share of its squared radius; less is rounding of the centre.
 constexpr double kBallTolerance = 1e-8;
 
-// Side k of triangle `left`, from a to b, with its triangle on the left and the other on the right.
+// Side k of triangle `left`, from a to b, with its triangle on the left and the other on the right
+// (kNone where a mesh without polygons ends).
 struct Side {
   Index left, right;
   int k;
@@ -43,6 +44,7 @@ double depth_in_ball(const Vec3& centre, const Vec3& a, const Vec3& d) {
 }
 
 bool breaks_delaunay(const Subject& subject, const Workspace& work, const Side& side) {
+  if (!subject.is_whole(side.left) || !subject.is_whole(side.right)) return false;
   const Triangle& right = subject.mesh.triangle(side.right);
   const Vec3 c = subject.mesh.position(subject.mesh.triangle(side.left).vertex[at(side.k)]);
   const Vec3 d = subject.mesh.position(right.vertex[at(side_towards(right, side.left))]);
@@ -68,7 +70,9 @@ void measure_dual_edge(const Subject& subject, const Workspace& work, const Side
   sums.dual_ratio_min.keep_lower({ratio, side.lower, side.higher});
   sums.stagger += stagger;
   sums.stagger_max.keep_higher({stagger, side.lower, side.higher});
+  ++sums.n_dual;
 
+  if (!subject.is_whole(side.left) || !subject.is_whole(side.right)) return;
   const bool left_smaller = left.area < right.area;
   const double small = left_smaller ? left.area : right.area;
   const double large = left_smaller ? right.area : left.area;
@@ -98,8 +102,23 @@ void measure_edge(const Subject& subject, const Workspace& work, const Side& sid
   sums.length_min.keep_lower({length});
   sums.length_max.keep_higher({length});
   if (subject.knows_spacing()) measure_relative_edge(side, length, spacing, sums);
+  if (side.right == kNone) return;
   sums.n_non_delaunay += breaks_delaunay(subject, work, side);
   measure_dual_edge(subject, work, side, sums);
+}
+
+double given_spacing(const Subject& subject, Index tri, int k) {
+  const bool is_given = subject.field == nullptr && subject.knows_spacing();
+  return is_given ? (*subject.side_spacing)(tri, k) : 0.0;
+}
+
+// Whether the side is between two cells, and this its only or its lower triangle.
+bool is_own_side(const Subject& subject, Index tri, int k) {
+  const Triangle& triangle = subject.mesh.triangle(tri);
+  const Index beyond = triangle.neighbour[at(k)];
+  if (beyond != kNone) return beyond > tri;
+  return subject.border != nullptr && triangle.vertex[at(next_corner(k))] != kNone &&
+         triangle.vertex[at(previous_corner(k))] != kNone;
 }
 
 // The sides of the triangles [begin, end) whose lower triangle is there, with their spacing.
@@ -109,12 +128,11 @@ EdgeSums measure_edges_of(const Subject& subject, const Workspace& work, std::in
   Array<Vertex> places;
   for (auto tri = static_cast<Index>(begin); tri < end; ++tri) {
     for (int k = 0; k < 3; ++k) {
-      if (subject.mesh.triangle(tri).neighbour[at(k)] <= tri) continue;
+      if (!is_own_side(subject, tri, k)) continue;
       sides.push_back(side_of(subject, tri, k));
       const Side& side = sides.back();
-      const bool is_given = subject.field == nullptr && subject.knows_spacing();
-      const double spacing = is_given ? (*subject.side_spacing)(tri, k) : 0.0;
-      places.push_back({side.middle.x(), side.middle.y(), side.middle.z(), spacing});
+      places.push_back(
+          {side.middle.x(), side.middle.y(), side.middle.z(), given_spacing(subject, tri, k)});
     }
   }
   if (subject.field != nullptr) subject.field->evaluate(places);
@@ -132,6 +150,12 @@ EdgeSums measure_edges(parallel::Executor& exec, const Subject& subject, const W
                               [&](std::int64_t begin, std::int64_t end) {
                                 return measure_edges_of(subject, work, begin, end);
                               });
+}
+
+EdgeSums measure_side(const Subject& subject, const Workspace& work, Index tri, int k) {
+  EdgeSums sums;
+  measure_edge(subject, work, side_of(subject, tri, k), given_spacing(subject, tri, k), sums);
+  return sums;
 }
 
 }  // namespace delos::metrics

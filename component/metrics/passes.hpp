@@ -21,9 +21,16 @@ struct Subject {
   const Mesh& mesh;
   const SpacingField* field = nullptr;  ///< one of the two, or none: not known
   const SideSpacing* side_spacing = nullptr;
+  const MeshBorder* border = nullptr;
 
   bool knows_spacing() const {
     return field != nullptr || (side_spacing != nullptr && *side_spacing != nullptr);
+  }
+  /// A triangle between three cells.
+  bool is_whole(Index tri) const {
+    if (border == nullptr) return true;
+    const auto& corner = mesh.triangle(tri).vertex;
+    return std::find(corner.begin(), corner.end(), kNone) == corner.end();
   }
 };
 
@@ -33,9 +40,11 @@ struct Facet {
   double area;  ///< flat
 };
 
+inline constexpr double kNotMeasured = -1.0;
+
 struct Workspace {
   std::vector<Facet> facets;        ///< [n_triangles]
-  std::vector<double> area_length;  ///< [n_triangles]
+  std::vector<double> area_length;  ///< [n_triangles] kNotMeasured where corners are missing
 };
 
 struct TriangleSums {
@@ -43,6 +52,7 @@ struct TriangleSums {
   Best angle_max = Best::highest(), radius_edge_max = Best::highest();
   double area_length = 0.0, deviation_deg = 0.0, radius_edge = 0.0;
   std::int64_t n_acute = 0, n_right = 0, n_degenerate = 0;
+  std::int64_t n_cut = 0;  // miss corners
   Bins<100> area_length_bins{0.5, 1.0};
   Bins<180> angle_bins{0.0, 180.0};
 
@@ -65,13 +75,14 @@ struct TriangleSums {
     n_acute += more.n_acute;
     n_right += more.n_right;
     n_degenerate += more.n_degenerate;
+    n_cut += more.n_cut;
     area_length_bins.merge(more.area_length_bins);
     angle_bins.merge(more.angle_bins);
   }
 };
 
 struct EdgeSums {
-  std::int64_t n = 0, n_non_delaunay = 0;
+  std::int64_t n = 0, n_dual = 0, n_non_delaunay = 0;  // n_dual: with both ends of the dual edge
   Best relative_min = Best::lowest(), relative_max = Best::highest();
   Best dual_ratio_min = Best::lowest(), stagger_max = Best::highest();
   Best grading_max = Best::highest();  // id = the smaller triangle
@@ -83,6 +94,7 @@ struct EdgeSums {
 
   void merge(const EdgeSums& more) {
     n += more.n;
+    n_dual += more.n_dual;
     n_non_delaunay += more.n_non_delaunay;
     relative_min.keep_lower(more.relative_min);
     relative_max.keep_higher(more.relative_max);
@@ -121,6 +133,8 @@ struct CellSums {
 /// Fills the workspace.
 TriangleSums measure_triangles(parallel::Executor& exec, const Subject& subject, Workspace& work);
 EdgeSums measure_edges(parallel::Executor& exec, const Subject& subject, const Workspace& work);
+/// One side of a triangle, with a spacing that is known by side or not at all.
+EdgeSums measure_side(const Subject& subject, const Workspace& work, Index tri, int k);
 CellSums measure_cells(parallel::Executor& exec, const Subject& subject, const Workspace& work);
 
 /// Sums of blocks, merged in block order: block(begin, end) -> Sums.

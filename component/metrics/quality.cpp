@@ -45,7 +45,8 @@ constexpr double kSurfaceTolerance = 1e-3;
 
 // Before anything is looked up at the vertices.
 void check_vertices(parallel::Executor& exec, const Subject& subject) {
-  DELOS_CHECK(subject.mesh.n_vertices() >= 4 && subject.mesh.n_triangles() >= 4,
+  DELOS_CHECK(subject.border != nullptr ||
+                  (subject.mesh.n_vertices() >= 4 && subject.mesh.n_triangles() >= 4),
               ErrorKind::internal, "a mesh of ", subject.mesh.n_vertices(), " vertices and ",
               subject.mesh.n_triangles(), " triangles has no quality: a closed surface has 4.");
   const auto is_off = [&](std::int64_t vertex) {
@@ -92,7 +93,16 @@ double percentile(std::vector<double>& values, double fraction) {
   return low + (position - static_cast<double>(below)) * (high - low);
 }
 
+void check_sides_by_side(bool is_enough, const Subject& subject) {
+  DELOS_CHECK(is_enough, ErrorKind::input, "a grid of ", subject.mesh.n_vertices(),
+              " cells with a border has no two triangles side by side, so there is nothing to "
+              "certify. Choose a larger region or domain, or a smaller spacing.");
+}
+
 void fill_triangles(const metrics::TriangleSums& sums, const Places& places, Quality& quality) {
+  quality.n_triangles = places.subject.mesh.n_triangles() - sums.n_cut;
+  quality.n_border_vertices = sums.n_cut;
+  check_sides_by_side(quality.n_triangles > 0, places.subject);
   const auto n = static_cast<double>(quality.n_triangles);
   check_finite("area_length", sums.area_length);
   check_finite("the angles", sums.deviation_deg);
@@ -130,16 +140,17 @@ void fill_edges(const metrics::EdgeSums& sums, const Places& places, Quality& qu
   check_finite("the edges' lengths", sums.length);
   check_finite("dual_ratio", sums.dual_ratio);
   check_finite("stagger", sums.stagger);
-  const auto n = static_cast<double>(sums.n);
+  check_sides_by_side(sums.n_dual > 0 && sums.grading_max.id != kNone, places.subject);
+  const auto n = static_cast<double>(sums.n), n_dual = static_cast<double>(sums.n_dual);
   const double metres = places.subject.surface.scale_m();
   quality.n_edges = sums.n;
   quality.n_non_delaunay = sums.n_non_delaunay;
   quality.grading_max = places.at_triangle(sums.grading_max);
   if (places.subject.knows_spacing()) fill_spacing(sums, places, quality);
   quality.dual_ratio_min = places.at_edge(sums.dual_ratio_min);
-  quality.dual_ratio_mean = sums.dual_ratio / n;
+  quality.dual_ratio_mean = sums.dual_ratio / n_dual;
   quality.stagger_max = places.at_edge(sums.stagger_max);
-  quality.stagger_mean = sums.stagger / n;
+  quality.stagger_mean = sums.stagger / n_dual;
   quality.edge_length_min_m = sums.length_min.value * metres;
   quality.edge_length_mean_m = sums.length / n * metres;
   quality.edge_length_max_m = sums.length_max.value * metres;
@@ -165,7 +176,13 @@ void fill_cells(const metrics::CellSums& sums, const Places& places, Quality& qu
   quality.cell_area_min_m2 = places.at_cell(sums.area_min, square_metres);
   quality.cell_area_max_m2 = places.at_cell(sums.area_max, square_metres);
   quality.total_area_m2 = sums.area * square_metres;
-  quality.total_area_error = std::abs(sums.area / surface.area() - 1.0);
+  quality.n_border_edges =
+      places.subject.border == nullptr
+          ? 0
+          : places.subject.border->polygons->offsets.n_values() - 2 * quality.n_edges;
+  if (!quality.has_border()) {
+    quality.total_area_error = std::abs(sums.area / surface.area() - 1.0);
+  }
   quality.degree = histogram(sums.degree_bins);
 }
 
@@ -174,13 +191,16 @@ Quality measure(parallel::Executor& exec, const Subject& subject, LatitudeKind l
   const Places places{subject, latitude};
   Quality quality;
   quality.n_vertices = subject.mesh.n_vertices();
-  quality.n_triangles = subject.mesh.n_triangles();
   metrics::Workspace work;
   fill_triangles(metrics::measure_triangles(exec, subject, work), places, quality);
+  if (subject.border != nullptr) std::erase(work.area_length, metrics::kNotMeasured);
   quality.area_length_p01 = percentile(work.area_length, 0.01);
   fill_edges(metrics::measure_edges(exec, subject, work), places, quality);
-  fill_cells(metrics::measure_cells(exec, subject, work), places, quality);
-  quality.euler = quality.n_vertices - quality.n_edges + quality.n_triangles;
+  if (subject.border == nullptr || subject.border->polygons != nullptr) {
+    fill_cells(metrics::measure_cells(exec, subject, work), places, quality);
+  }
+  quality.euler = quality.n_vertices - (quality.n_edges + quality.n_border_edges) +
+                  quality.n_triangles + quality.n_border_vertices;
   return quality;
 }
 
@@ -188,12 +208,18 @@ Quality measure(parallel::Executor& exec, const Subject& subject, LatitudeKind l
 
 Quality measure_quality(Context& context, const Ellipsoid& surface, const SpacingField& spacing,
                         const Mesh& mesh, LatitudeKind latitude) {
-  return measure(context.exec, {surface, mesh, &spacing, nullptr}, latitude);
+  return measure(context.exec, {surface, mesh, &spacing}, latitude);
 }
 
 Quality measure_quality(Context& context, const Ellipsoid& surface, const SideSpacing& spacing,
                         const Mesh& mesh, LatitudeKind latitude) {
   return measure(context.exec, {surface, mesh, nullptr, &spacing}, latitude);
+}
+
+Quality measure_quality(Context& context, const CertifiedMesh& subject) {
+  return measure(context.exec,
+                 {subject.surface, subject.mesh, nullptr, &subject.spacing, subject.border},
+                 subject.latitude);
 }
 
 }  // namespace delos

@@ -5,9 +5,11 @@
 // chords; positions of dual vertices are the centres of the surface Delaunay balls.
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "core/progress.hpp"
+#include "dual/grid.hpp"
 #include "geometry/ellipsoid.hpp"
 #include "sizing/spacing.hpp"
 #include "triangulation/mesh.hpp"
@@ -31,6 +33,26 @@ struct Extreme {
 /// The wanted spacing (scaled) at the projected middle of side k of a triangle.
 using SideSpacing = std::function<double(Index tri, int k)>;
 
+/// What a mesh of a part of the surface can't say itself. Triangle t of such a mesh is vertex t of
+/// a grid with a border: corners are kNone where their cells are gone, neighbours where a side has
+/// not two cells, or no triangle beyond it.
+struct MeshBorder {
+  /// [n_triangles] the grid's vertices, where dual edges end at triangles that miss corners; may be
+  /// empty where none does.
+  std::span<const Vec3> centre;
+  /// The triangles around every cell, counter-clockwise; null: not known, nor degrees and areas.
+  const Ragged<Index>* polygons = nullptr;
+};
+
+/// A mesh that came from somewhere.
+struct CertifiedMesh {
+  const Ellipsoid& surface;
+  const SideSpacing& spacing;  ///< null: not known
+  const Mesh& mesh;
+  LatitudeKind latitude = LatitudeKind::geodetic;
+  const MeshBorder* border = nullptr;  ///< null: the mesh is closed
+};
+
 /// counts[i] = values in [lower + i w, lower + (i + 1) w), w = (upper - lower) / counts.size(); the
 /// first and the last bin also take what lies outside.
 struct Histogram {
@@ -41,7 +63,9 @@ struct Histogram {
 struct Quality {
   // --- counts
   std::int64_t n_vertices = 0, n_triangles = 0, n_edges = 0;
-  std::int64_t euler = 0;           ///< n_vertices - n_edges + n_triangles, 2 when right
+  /// Of a grid with a border, beside those: edges with one cell, and vertices that miss a cell.
+  std::int64_t n_border_edges = 0, n_border_vertices = 0;
+  std::int64_t euler = 0;           ///< n_vertices - n_edges + n_triangles, 2 when closed
   std::int64_t n_non_delaunay = 0;  ///< sides that the surface Delaunay would flip
   std::int64_t n_degenerate = 0;    ///< triangles of zero area or folded over; 0 when right
   bool knows_spacing = false;       ///< else relative_edge_* and spacing_* mean nothing
@@ -74,7 +98,9 @@ struct Quality {
   Extreme degree_min, degree_max;
   Extreme cell_area_min_m2, cell_area_max_m2;  ///< of the Voronoi cells
   double total_area_m2 = 0.0;                  ///< sum of the cell areas
-  double total_area_error = 0.0;               ///< relative to the surface's area
+  double total_area_error = 0.0;               ///< relative to a closed surface's area, else 0
+
+  bool has_border() const { return n_border_edges > 0; }
 
   // --- for pictures
   Histogram area_length;    ///< [0.5, 1], 100 bins
@@ -93,5 +119,10 @@ Quality measure_quality(Context& context, const Ellipsoid& surface, const Spacin
 /// The same where no field is at hand (a grid read from a file). Null: the spacing is not known.
 Quality measure_quality(Context& context, const Ellipsoid& surface, const SideSpacing& spacing,
                         const Mesh& mesh, LatitudeKind latitude = LatitudeKind::geodetic);
+
+/// The same of what a grid with a border has: triangles between three cells, edges between two,
+/// every cell. Dual edges that end at the border count, Delaunay and grading need both triangles.
+/// Error(input) when no two triangles lie side by side.
+Quality measure_quality(Context& context, const CertifiedMesh& subject);
 
 }  // namespace delos

@@ -35,12 +35,16 @@ struct ReportPartition {
   double lightest = 0.0;
 };
 
+/// Ids in reports count as those in the files that go with them.
+inline constexpr std::int64_t kReportIndexBase = 1;
+
 struct Report {
   std::string title;    ///< e.g. the configuration's name
   std::string version;  ///< of delos
   Ellipsoid surface;
   Quality quality;
   double expected_vertices = 0.0;  ///< from the spacing field; 0 = unknown
+  std::int64_t n_cells_made = 0;   ///< of which the grid is a part; 0: it is the whole
   int n_threads = 0;
   std::vector<PhaseTime> phases;
   std::string digest;  ///< of the grid

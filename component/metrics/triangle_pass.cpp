@@ -18,6 +18,12 @@ Vec3 ball_centre(const Ellipsoid& surface, const Vec3& a, const Vec3& b, const V
 }
 
 void measure_triangle(const Subject& subject, Index tri, Workspace& work, TriangleSums& sums) {
+  if (!subject.is_whole(tri)) {
+    work.facets[at(tri)] = {subject.border->centre[at(tri)], 0.0};
+    work.area_length[at(tri)] = kNotMeasured;
+    ++sums.n_cut;
+    return;
+  }
   const auto& corner = subject.mesh.triangle(tri).vertex;
   const Vec3 a = subject.mesh.position(corner[0]);
   const Vec3 b = subject.mesh.position(corner[1]);

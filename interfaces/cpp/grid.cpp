@@ -7,6 +7,7 @@
 #include "flat.hpp"
 #include "grid_access.hpp"
 #include "io/atomic_file.hpp"
+#include "io/face_mesh.hpp"
 #include "lifecycle/outputs.hpp"
 #include "metrics/certificate.hpp"
 #include "translate.hpp"
@@ -53,7 +54,7 @@ Worst worst(const delos::Grid& grid, const Extreme& extreme) {
 }
 
 Certificate public_certificate(const Product& product) {
-  const delos::Certificate own = certificate_of(product);
+  const delos::Certificate own = certificate(product.report.quality);
   const auto at = [&](const Extreme& extreme) { return worst(*product.grid, extreme); };
   return {.well_centred = own.is_well_centred(),
           .well_centred_fraction = own.well_centred,
@@ -91,9 +92,7 @@ Grid GridAccess::make(std::shared_ptr<const Product> product, std::int64_t gener
   auto impl = std::make_shared<Grid::Impl>(std::move(product), generation);
   const Product& own = impl->product;
   const RowOffsets& offsets = own.grid->edges_on_cell.offsets;
-  for (std::int64_t cell = 0; cell < offsets.n_rows(); ++cell) {
-    impl->max_edges = std::max(impl->max_edges, offsets.length_of(cell));
-  }
+  impl->max_edges = static_cast<std::int64_t>(longest_row(offsets));
   impl->quality = summary(own.report.quality);
   impl->certificate = public_certificate(own);
   impl->report = report_text(own.report);

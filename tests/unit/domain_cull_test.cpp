@@ -68,7 +68,6 @@ TEST_CASE("what stays of a culled grid has its bits, and missing kites are 0") {
   const Grid grid = whole_grid(kEarth);
   const domain::Culled part = culled(grid, cells_where(grid, in_north));
   const Grid& g = part.grid;
-  const auto at = [](Index i) { return static_cast<std::size_t>(i); };
   for (std::size_t i = 0; i < part.old_cell.size(); ++i) {
     const Index old = part.old_cell[i];
     CHECK(g.cell_area_m2[i] == grid.cell_area_m2[at(old)]);

@@ -31,8 +31,7 @@ struct Quality {
 /// The worst element of one measure.
 struct Worst {
   double value;
-  /// From 0, into the arrays of Grid: a vertex or an edge. -1 where a culled grid lacks it.
-  std::int64_t id;
+  std::int64_t id;                    ///< from 0, into the arrays of Grid: a vertex or an edge
   std::array<std::int64_t, 2> cells;  ///< of the edge, from 0; -1 for a vertex
   double lon_rad, lat_rad;            ///< [0, 2 pi), of the configured kind
 };
