@@ -15,8 +15,12 @@ void draw_picture(const PictureSubject& subject, const std::string& picture,
                   const std::string& path) {
   pictures::PictureOptions options;
   options.title = subject.title;
-  options.view_lon_deg = subject.view.lon_rad * kDegPerRad;
-  options.view_lat_deg = subject.view.lat_rad * kDegPerRad;
+  if (subject.wishes != nullptr) {
+    options.view_lon_deg = subject.wishes->view.lon_rad * kDegPerRad;
+    options.view_lat_deg = subject.wishes->view.lat_rad * kDegPerRad;
+    options.has_view = subject.wishes->has_view;
+    options.view_radius_deg = subject.wishes->view_radius_deg;
+  }
   options.land = subject.elevation_m;
   if (picture == "globe") {
     pictures::draw_globe(subject.grid, options, path);

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "dual/grid.hpp"
+#include "lifecycle/settings.hpp"
 #include "metrics/quality.hpp"
 #include "sizing/raster.hpp"
 
@@ -15,7 +16,8 @@ struct PictureSubject {
   const Grid& grid;
   const Quality& quality;
   const Raster* elevation_m;  ///< for land; may be null
-  LonLat view;                ///< centre of the globe
+  /// Where the user wants to look; null: nowhere in particular.
+  const OutputSettings* wishes = nullptr;
 };
 
 /// Draws "globe", "map" or "histograms" into a PNG file. Error(output) when this build has no

@@ -23,9 +23,8 @@ int run_plot(const Arguments& arguments, const std::atomic<bool>& cancel) {
   fs::create_directories(folder, error);
   DELOS_CHECK(!error, ErrorKind::output, "the folder ", folder, " can't be made: ", error.message(),
               ".");
-  constexpr LonLat kView{-30.0 * kRadPerDeg, 25.0 * kRadPerDeg};
   const PictureSubject subject{loaded.report.title, loaded.grid, loaded.report.quality,
-                               &elevation_m, kView};
+                               &elevation_m};
   const std::string stem = fs::path(loaded.file.path).stem().string();
   for (const char* const picture : {"globe", "map", "histograms"}) {
     monitor.check_cancelled();

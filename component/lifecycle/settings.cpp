@@ -238,6 +238,16 @@ OutputSettings read_output(MapReader keys) {
   out.spacing = keys.boolean("spacing", false);
   out.pictures = keys.strings("pictures", {"globe", "map", "histograms"}, {});
   out.view = read_view(keys);
+  out.has_view = keys.has("view");
+  // Beyond 75 degrees the whole globe says more.
+  out.view_radius_deg =
+      keys.optional_quantity("view_radius", Dimension::angle, Bounds::between(0.01, 75.0))
+          .value_or(0.0);
+  if (out.view_radius_deg > 0.0 && !out.has_view) {
+    keys.fail("view_radius",
+              "is the radius of a disc around `view`, which is not given. Add "
+              "output.view: [longitude, latitude].");
+  }
   out.unit_sphere = keys.boolean("unit_sphere", false);
   out.compress = keys.boolean("compress", false);
   return out;
@@ -335,10 +345,10 @@ Settings read_settings(const ConfigNode& root_node, const std::string& folder) {
   if (out.domain && out.domain->needs_bathymetry()) add_bathymetry(root, out.sizing);
   out.layers = read_layers(root);
   if (out.layers) add_bathymetry(root, out.sizing);
-  out.output =
-      read_output(root.map("output", {"directory", "name", "formats", "graph", "partitions",
-                                      "partition_method", "order", "order_parts", "report",
-                                      "spacing", "pictures", "view", "unit_sphere", "compress"}));
+  out.output = read_output(
+      root.map("output", {"directory", "name", "formats", "graph", "partitions", "partition_method",
+                          "order", "order_parts", "report", "spacing", "pictures", "view",
+                          "view_radius", "unit_sphere", "compress"}));
   check_order(root, out);
   out.require = read_require(root);
   constexpr std::int64_t kMaxThreads = 4096;

@@ -66,6 +66,8 @@ struct OutputSettings {
   CellOrderSettings order;            ///< of a grid of the whole surface
   std::vector<std::string> pictures;  ///< of globe, map, histograms
   LonLat view{0.0, 0.0};              ///< centre of the globe picture
+  bool has_view = false;              ///< it was asked for
+  double view_radius_deg = 0.0;       ///< > 0: globe and map show this disc around it close up
   bool unit_sphere = false;           ///< MPAS on the unit sphere
   bool compress = false;              ///< netCDF-4 with deflate where a reader may meet it
 

@@ -12,8 +12,13 @@ namespace delos::pictures {
 namespace {
 
 constexpr Colour kLand{0.80, 0.79, 0.76, 1.0};
-// Part of the land's grey over the colour of the cell.
+// Part of the land's grey over the colour of the cell; less where the cells of land count too.
 constexpr double kLandCover = 0.84;
+constexpr double kRegionLandCover = 0.25;
+constexpr Colour kOutsideSea{0.93, 0.95, 0.97, 1.0};
+constexpr Colour kRingTint{0.89, 0.29, 0.10, 1.0};
+// Samples along each side of a pixel: smooths the borders between cells.
+constexpr int kSamples = 2;
 constexpr Colour kOutline{0.05, 0.06, 0.10, 1.0};
 constexpr Colour kLightInk{0.95, 0.95, 1.0, 1.0};
 // Perceived brightness (Rec. 601 weights) below which lines are light.
@@ -32,9 +37,29 @@ CellPainter::CellPainter(const Grid& grid, const LandMask* land)
     : grid_(grid), land_(land), sizes_km_(cell_sizes_km(grid)), scale_(sizes_km_) {
   cell_colours_.reserve(sizes_km_.size());
   for (const double size : sizes_km_) cell_colours_.push_back(scale_.colour(size));
+  if (!grid.cell_ring.empty()) {
+    n_rings_ = *std::max_element(grid.cell_ring.begin(), grid.cell_ring.end());
+    for (std::size_t cell = 0; cell < cell_colours_.size(); ++cell) {
+      cell_colours_[cell] = tinted(cell_colours_[cell], grid.cell_ring[cell]);
+    }
+  }
   if (is_closed(grid)) return;
   parallel::Executor alone(1);
   nearest_.emplace(alone, std::vector<Vec3>(grid.cell_position.begin(), grid.cell_position.end()));
+}
+
+Colour CellPainter::tinted(const Colour& colour, int ring) const {
+  constexpr double kFirst = 0.30, kLast = 0.80;  // shares of the tint
+  if (ring <= 0) return colour;
+  const double way = n_rings_ > 1 ? (ring - 1.0) / (n_rings_ - 1.0) : 1.0;
+  return mix(colour, kRingTint, kFirst + way * (kLast - kFirst));
+}
+
+Colour CellPainter::ring_colour(int ring) const {
+  std::vector<double> sizes(sizes_km_);
+  const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+  std::nth_element(sizes.begin(), middle, sizes.end());
+  return tinted(scale_.colour(*middle), ring);
 }
 
 void CellPainter::walk(const Vec3& p, Index& hint) const {
@@ -81,17 +106,49 @@ Colour CellPainter::colour(const Vec3& p, Index& hint) const {
   const LonLat where = grid_.surface.lon_lat(p, grid_.latitude);
   const double lon = where.lon_rad * kDegPerRad, lat = where.lat_rad * kDegPerRad;
   if (is_in_grid && !land_->is_land(lon, lat)) return own;
+  if (!is_in_grid && n_rings_ > 0 && !land_->is_land(lon, lat)) return kOutsideSea;
   const double shade = land_->shade(lon, lat);
   const Colour land{kLand.r * shade, kLand.g * shade, kLand.b * shade, 1.0};
-  return is_in_grid ? mix(own, land, kLandCover) : land;
+  return is_in_grid ? mix(own, land, land_cover()) : land;
 }
 
 bool CellPainter::is_dark(Index cell, const Vec3& p) const {
   const Colour& own = cell_colours_[static_cast<std::size_t>(cell)];
   if (0.299 * own.r + 0.587 * own.g + 0.114 * own.b >= kDark) return false;
-  if (land_ == nullptr) return true;
+  if (land_ == nullptr || land_cover() < 0.5) return true;
   const LonLat where = grid_.surface.lon_lat(p, grid_.latitude);
   return !land_->is_land(where.lon_rad * kDegPerRad, where.lat_rad * kDegPerRad);
+}
+
+double CellPainter::land_cover() const { return n_rings_ > 0 ? kRegionLandCover : kLandCover; }
+
+Image painted(const CellPainter& painter, const Box& box,
+              const std::function<std::optional<Sample>(const Point&)>& sample_at) {
+  Image image{static_cast<int>(box.width), static_cast<int>(box.height), {}};
+  image.pixels.assign(at(image.width) * at(image.height), Colour{0.0, 0.0, 0.0, 0.0});
+  Index row_start = 0;
+  for (int row = 0; row < image.height; ++row) {
+    Index cell = row_start;
+    bool is_first = true;
+    for (int column = 0; column < image.width; ++column) {
+      Colour sum{0.0, 0.0, 0.0, 0.0};
+      for (int sample = 0; sample < kSamples * kSamples; ++sample) {
+        const int over = sample % kSamples, down = sample / kSamples;
+        const std::optional<Sample> seen = sample_at(
+            {box.x + column + (over + 0.5) / kSamples, box.y + row + (down + 0.5) / kSamples});
+        if (!seen) continue;
+        const Colour colour = painter.colour(seen->point, cell);
+        if (is_first) row_start = cell;
+        is_first = false;
+        sum = {sum.r + seen->light * colour.r, sum.g + seen->light * colour.g,
+               sum.b + seen->light * colour.b, sum.a + 1.0};
+      }
+      if (sum.a == 0.0) continue;
+      image.at(column, row) = {sum.r / sum.a, sum.g / sum.a, sum.b / sum.a,
+                               sum.a / (kSamples * kSamples)};
+    }
+  }
+  return image;
 }
 
 void Outlines::add(const Segment& segment, const Cell& cell) {

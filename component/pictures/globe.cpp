@@ -9,14 +9,13 @@
 #include "pictures/canvas.hpp"
 #include "pictures/cell_painter.hpp"
 #include "pictures/coastline.hpp"
+#include "pictures/zoom.hpp"
 
 namespace delos::pictures {
 
 namespace {
 
 constexpr Colour kGraticule{1.0, 1.0, 1.0, 0.30};
-// Samples along each side of a pixel: smooths the borders between cells and the rim.
-constexpr int kSamples = 2;
 // The rim is drawn this much darker than the middle, so that the picture reads as a ball.
 constexpr double kShadow = 0.16;
 
@@ -25,10 +24,13 @@ struct Projection {
   const Ellipsoid* surface;
   Point centre;
   double radius;  // pixels of one scaled unit
+  double disc;    // pixels that are shown around the centre
   Vec3 view, east, north;
+  Point origin;  // of the point in the centre, along east and north
+  double meridians_deg = 30.0, parallels_deg = 30.0;  // between lines of the graticule
 
   Projection(const Ellipsoid& body, const Point& middle, double pixels, const LonLat& from)
-      : surface(&body), centre(middle), radius(pixels) {
+      : surface(&body), centre(middle), radius(pixels), disc(pixels) {
     const double clat = std::cos(from.lat_rad), slat = std::sin(from.lat_rad);
     const double clon = std::cos(from.lon_rad), slon = std::sin(from.lon_rad);
     view = Vec3(clat * clon, clat * slon, slat);
@@ -36,12 +38,14 @@ struct Projection {
     north = view.cross(east);
   }
   Point pixel(const Vec3& p) const {
-    return {centre.x + radius * p.dot(east), centre.y - radius * p.dot(north)};
+    return {centre.x + radius * (p.dot(east) - origin.x),
+            centre.y - radius * (p.dot(north) - origin.y)};
   }
   bool is_visible(const Vec3& p) const { return surface->normal(p).dot(view) > 0.0; }
   /// The point of the surface seen at a pixel, if any.
   std::optional<Vec3> point(const Point& pixel) const {
-    const Vec3 q = ((pixel.x - centre.x) * east - (pixel.y - centre.y) * north) / radius;
+    const Vec3 q = ((pixel.x - centre.x) / radius + origin.x) * east -
+                   ((pixel.y - centre.y) / radius - origin.y) * north;
     const Vec3 weight = surface->inverse_square();
     const double a = view.dot(weight.cwiseProduct(view)), b = view.dot(weight.cwiseProduct(q));
     const double c = q.dot(weight.cwiseProduct(q)) - 1.0;
@@ -52,39 +56,17 @@ struct Projection {
 };
 
 void paint_cells(Canvas& canvas, const CellPainter& painter, const Projection& look) {
-  const int side = 2 * static_cast<int>(std::ceil(look.radius)) + 2;
-  const Point corner{std::floor(look.centre.x - look.radius) - 1,
-                     std::floor(look.centre.y - look.radius) - 1};
-  Image image{side, side, std::vector<Colour>(static_cast<std::size_t>(side) * side)};
-  Index row_start = 0;
-  for (int row = 0; row < side; ++row) {
-    Index cell = row_start;
-    bool is_first = true;
-    for (int column = 0; column < side; ++column) {
-      Colour sum{0.0, 0.0, 0.0, 0.0};
-      for (int sample = 0; sample < kSamples * kSamples; ++sample) {
-        const int over = sample % kSamples, down = sample / kSamples;
-        const Point at{corner.x + column + (over + 0.5) / kSamples,
-                       corner.y + row + (down + 0.5) / kSamples};
-        const std::optional<Vec3> p = look.point(at);
-        if (!p) continue;
-        const Colour colour = painter.colour(*p, cell);
-        if (is_first) row_start = cell;
-        is_first = false;
-        const double light =
-            1.0 - kShadow * (1.0 - std::max(0.0, look.surface->normal(*p).dot(look.view)));
-        sum = {sum.r + light * colour.r, sum.g + light * colour.g, sum.b + light * colour.b,
-               sum.a + 1.0};
-      }
-      if (sum.a > 0.0) {
-        image.at(column, row) = {sum.r / sum.a, sum.g / sum.a, sum.b / sum.a,
-                                 sum.a / (kSamples * kSamples)};
-      } else {
-        image.at(column, row) = {0.0, 0.0, 0.0, 0.0};
-      }
-    }
-  }
-  canvas.image(image, corner);
+  const double side = 2 * std::ceil(look.disc) + 2;
+  const Box box{std::floor(look.centre.x - look.disc) - 1,
+                std::floor(look.centre.y - look.disc) - 1, side, side};
+  const auto sample_at = [&](const Point& at) -> std::optional<Sample> {
+    if (std::hypot(at.x - look.centre.x, at.y - look.centre.y) > look.disc) return std::nullopt;
+    const std::optional<Vec3> p = look.point(at);
+    if (!p) return std::nullopt;
+    return Sample{*p,
+                  1.0 - kShadow * (1.0 - std::max(0.0, look.surface->normal(*p).dot(look.view)))};
+  };
+  canvas.image(painted(painter, box, sample_at), {box.x, box.y});
 }
 
 void draw_outlines(Canvas& canvas, const Grid& grid, const CellPainter& painter,
@@ -114,14 +96,22 @@ void draw_lines(Canvas& canvas, const Grid& grid, const LandMask* land, const Pr
     return grid.surface.point({lon_deg * kRadPerDeg, lat_deg * kRadPerDeg}, grid.latitude);
   };
   std::vector<Segment> graticule;
-  for (int lon = -180; lon < 180; lon += 30) {
-    for (int lat = -90; lat < 90; lat += 2) {
-      add_visible(graticule, look, point(lon, lat), point(lon, lat + 2));
+  const int n_meridians = static_cast<int>(std::lround(360.0 / look.meridians_deg));
+  const double piece = std::min(2.0, look.parallels_deg / 4.0);
+  const int n_pieces = static_cast<int>(std::lround(180.0 / piece));
+  for (int i = 0; i < n_meridians; ++i) {
+    const double lon = -180.0 + i * look.meridians_deg;
+    for (int k = 0; k < n_pieces; ++k) {
+      add_visible(graticule, look, point(lon, k * piece - 90.0),
+                  point(lon, (k + 1) * piece - 90.0));
     }
   }
-  for (int lat = -60; lat <= 60; lat += 30) {
-    for (int lon = -180; lon < 180; lon += 2) {
-      add_visible(graticule, look, point(lon, lat), point(lon + 2, lat));
+  const int n_parallels = static_cast<int>(std::lround(180.0 / look.parallels_deg)) - 1;
+  for (int i = 1; i <= n_parallels; ++i) {
+    const double lat = -90.0 + i * look.parallels_deg;
+    for (int k = 0; k < 2 * n_pieces; ++k) {
+      add_visible(graticule, look, point(k * piece - 180.0, lat),
+                  point((k + 1) * piece - 180.0, lat));
     }
   }
   canvas.segments(graticule, {kGraticule, 1.0});
@@ -151,9 +141,25 @@ void draw_rim(Canvas& canvas, const Ellipsoid& surface, const Projection& look) 
 void draw_side(Canvas& canvas, const Grid& grid, const CellPainter& painter, const LandMask* land,
                const Projection& look) {
   paint_cells(canvas, painter, look);
+  const bool is_whole = look.disc == look.radius;
+  if (!is_whole) canvas.clip_disc(look.centre, look.disc);
   draw_outlines(canvas, grid, painter, look);
   draw_lines(canvas, grid, land, look);
-  draw_rim(canvas, grid.surface, look);
+  if (is_whole) return draw_rim(canvas, grid.surface, look);
+  canvas.unclip();
+  canvas.circle(look.centre, look.disc, {kInk, 1.6});
+}
+
+/// The cap fills the disc.
+Projection close_up(const Grid& grid, const Point& middle, double disc, const Zoom& zoom) {
+  constexpr double kRoom = 1.08;  // around the cap
+  Projection out(grid.surface, middle, disc, zoom.centre);
+  out.radius = disc / std::sin(std::min(kRoom * zoom.radius_rad, kPi / 2.0));
+  const Vec3 p = grid.surface.point(zoom.centre, grid.latitude);
+  out.origin = {p.dot(out.east), p.dot(out.north)};
+  out.parallels_deg = graticule_step(2.0 * zoom.radius_rad * kDegPerRad);
+  out.meridians_deg = meridian_step(zoom);
+  return out;
 }
 
 }  // namespace
@@ -168,11 +174,15 @@ void draw_globe(const Grid& grid, const PictureOptions& options, const std::stri
 
   const LonLat from{options.view_lon_deg * kRadPerDeg, options.view_lat_deg * kRadPerDeg};
   const LonLat behind{from.lon_rad + kPi, -from.lat_rad};
+  const bool is_far = options.has_view && options.view_radius_deg == 0.0;
+  const std::optional<Zoom> zoom = is_far ? std::nullopt : zoom_of(grid, options);
+  const Point middle{480 * unit, 540 * unit};
   draw_side(canvas, grid, painter, land,
-            {grid.surface, {480 * unit, 540 * unit}, 425 * unit, from});
+            zoom ? close_up(grid, middle, 425 * unit, *zoom)
+                 : Projection(grid.surface, middle, 425 * unit, from));
   draw_side(canvas, grid, painter, land,
-            {grid.surface, {1330 * unit, 440 * unit}, 215 * unit, behind});
-  canvas.text({1330 * unit, 200 * unit}, "the far side",
+            {grid.surface, {1330 * unit, 440 * unit}, 215 * unit, zoom ? zoom->centre : behind});
+  canvas.text({1330 * unit, 200 * unit}, zoom ? "where it is" : "the far side",
               {.size = 20 * unit, .anchor_x = 0.5, .anchor_y = 1.0});
 
   canvas.text({48 * unit, 52 * unit}, options.title, {.size = 34 * unit, .bold = true});

@@ -9,13 +9,13 @@
 #include "pictures/canvas.hpp"
 #include "pictures/cell_painter.hpp"
 #include "pictures/coastline.hpp"
+#include "pictures/zoom.hpp"
 
 namespace delos::pictures {
 
 namespace {
 
 constexpr Colour kMapGraticule{1.0, 1.0, 1.0, 0.28};
-constexpr int kMapSamples = 2;
 // An edge near a pole bends on this map; it is drawn in pieces no wider than this.
 constexpr double kPiece_deg = 2.0;
 constexpr int kMostPieces = 64;
@@ -32,29 +32,11 @@ struct Frame {
 };
 
 void paint_cells(Canvas& canvas, const Grid& grid, const CellPainter& painter, const Frame& frame) {
-  Image image{static_cast<int>(frame.box.width), static_cast<int>(frame.box.height), {}};
-  image.pixels.resize(static_cast<std::size_t>(image.width) *
-                      static_cast<std::size_t>(image.height));
-  Index row_start = 0;
-  for (int row = 0; row < image.height; ++row) {
-    Index cell = row_start;
-    for (int column = 0; column < image.width; ++column) {
-      Colour sum{0.0, 0.0, 0.0, 1.0};
-      for (int sample = 0; sample < kMapSamples * kMapSamples; ++sample) {
-        const int over = sample % kMapSamples, down = sample / kMapSamples;
-        const double x = frame.box.x + column + (over + 0.5) / kMapSamples;
-        const double y = frame.box.y + row + (down + 0.5) / kMapSamples;
-        const Vec3 p = grid.surface.point(
-            {frame.lon_deg(x) * kRadPerDeg, frame.lat_deg(y) * kRadPerDeg}, grid.latitude);
-        const Colour colour = painter.colour(p, cell);
-        sum = {sum.r + colour.r, sum.g + colour.g, sum.b + colour.b, 1.0};
-      }
-      if (column == 0) row_start = cell;
-      constexpr double kWeight = 1.0 / (kMapSamples * kMapSamples);
-      image.at(column, row) = {kWeight * sum.r, kWeight * sum.g, kWeight * sum.b, 1.0};
-    }
-  }
-  canvas.image(image, {frame.box.x, frame.box.y});
+  const auto sample_at = [&](const Point& p) -> std::optional<Sample> {
+    const LonLat place{frame.lon_deg(p.x) * kRadPerDeg, frame.lat_deg(p.y) * kRadPerDeg};
+    return Sample{grid.surface.point(place, grid.latitude)};
+  };
+  canvas.image(painted(painter, frame.box, sample_at), {frame.box.x, frame.box.y});
 }
 
 /// The longitude that differs from `near_deg` by at most half a turn.
@@ -139,6 +121,7 @@ void draw_axes(Canvas& canvas, const Frame& frame, double unit) {
 }  // namespace
 
 void draw_map(const Grid& grid, const PictureOptions& options, const std::string& path) {
+  if (const auto zoom = zoom_of(grid, options)) return draw_zoomed_map(grid, options, *zoom, path);
   std::optional<LandMask> mask;
   if (options.land != nullptr) mask.emplace(*options.land);
   const LandMask* land = mask ? &*mask : nullptr;

@@ -142,6 +142,12 @@ must 'check notices a damaged file' test "$status" = 1 -o "$status" = 4
 
 if "$delos" plot out/small.mpas.nc -o pictures >plot.txt 2>plot_error.txt; then
   must 'plot writes three pictures' test "$(ls pictures/*.png | wc -l)" = 3
+  printf '%s\n' 'sizing: {sources: [{type: constant, spacing: 150 km}]}' 'data_path: []' \
+    'region: {disc: {centre: [179 deg, 86 deg], radius: 1200 km}}' \
+    'output: {name: r, formats: [mpas], pictures: [globe, map]}' >region.yaml
+  must 'a region over the pole is drawn and agrees with its file' sh -c "
+    '$delos' mesh region.yaml -o region --quiet && '$delos' check region >region.txt &&
+    test -s region/r.map.png -a -s region/r.globe.png && grep -q 'as certified' region.txt"
 else
   must 'plot without cairo says so' grep -q 'Build it with cairo' plot_error.txt
 fi
