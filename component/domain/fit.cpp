@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "domain/cell_means.hpp"
-#include "domain/mask.hpp"
+#include "domain/tips.hpp"
 
 namespace delos::domain {
 namespace {
@@ -76,7 +76,17 @@ class CoastFit {
     visit(before, first);
   }
 
-  bool is_sea(Index vertex) const { return wet_[at(vertex)] >= sea_.least_wet; }
+  bool is_sea(Index vertex) const { return is_sea_[at(vertex)] != 0; }
+
+  // As the ocean will be selected.
+  void judge() {
+    is_sea_ = wet_cells(context_.exec, wet_, sea_.least_wet);
+    const auto neighbours_of = [&](Index cell, std::vector<Index>& around) {
+      around.clear();
+      neighbours(cell, [&](Index other) { around.push_back(other); });
+    };
+    clear_tips({wet_, sea_.least_wet, sea_.tip_margin}, neighbours_of, is_sea_);
+  }
 
   // Wet shares of these cells as they are now.
   void look_at(const std::vector<Index>& cells) {
@@ -100,6 +110,7 @@ class CoastFit {
     grid.vertices_on_cell.offsets = RowOffsets(std::move(offsets));
     const CellMeans means = mean_over_cells(context_, grid, sea_.elevation_m, sea_.sea_level_m);
     for (std::size_t i = 0; i < cells.size(); ++i) wet_[at(cells[i])] = means.wet_fraction[i];
+    judge();
   }
 
   // Vertices with a neighbour across the coast, ascending.
@@ -214,7 +225,8 @@ class CoastFit {
   Mesh& mesh_;
   std::vector<Index> triangle_at_;
   std::vector<char> has_moved_;
-  std::vector<double> wet_;
+  Array<double> wet_;
+  Mask is_sea_;
 };
 
 }  // namespace

@@ -8,12 +8,13 @@
 
 namespace delos::domain {
 
-/// The sea to fit to: elevations on a table, the level below which they are wet, and the wet share
-/// that makes a cell sea.
+/// The sea to fit to: elevations on a table, the level below which they are wet, and what makes a
+/// cell sea: its wet share, or that of clear_tips().
 struct SeaToFit {
   const LatLonField& elevation_m;
   double sea_level_m = 0.0;
   double least_wet = 0.5;
+  double tip_margin = 0.0;  ///< of clear_tips()
 };
 
 struct FitOptions {

@@ -6,6 +6,7 @@
 #include "core/error.hpp"
 #include "domain/bodies.hpp"
 #include "domain/passages.hpp"
+#include "domain/tips.hpp"
 #include "domain/transects.hpp"
 #include "sizing/analytic.hpp"
 
@@ -158,6 +159,15 @@ Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<doubl
   std::vector<Chain> passages = chains_of(grid, options.passages);
   const std::vector<Chain> blockages = chains_of(grid, options.blockages);
   Mask sea = wet_cells(exec, wet_fraction, options.least_wet);
+  if (options.tip_margin > 0.0) {
+    report.n_tips_cleared = clear_tips(
+        {wet_fraction, options.least_wet, options.tip_margin},
+        [&](Index cell, std::vector<Index>& around) {
+          const auto row = grid.cells_on_cell.row(cell);
+          around.assign(row.begin(), row.end());
+        },
+        sea);
+  }
   Mask is_shut(sea.size(), 0);
   set_cells(blockages, true, is_shut);
   report.blockages = set_cells(blockages, false, sea);

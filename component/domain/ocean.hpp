@@ -23,6 +23,7 @@ enum class BodyRule {
 struct OceanOptions {
   double least_wet = 0.5;  ///< of a sea cell's area
   double sea_level_m = 0.0;
+  double tip_margin = 0.0;  ///< of clear_tips(), which lines overrule; 0: tips stay
   /// Kept open, whatever the mask says. Around the cells of a blockage where few cells of sea lead
   /// around, else through; then the cells on the other side of the blockage's line are shut.
   std::vector<LonLatLine> passages;
@@ -51,6 +52,7 @@ struct OceanReport {
   double area_m2 = 0.0;
   std::int64_t n_bodies = 0, n_bodies_kept = 0;
   std::int64_t n_cells_of_other_bodies = 0;
+  std::int64_t n_tips_cleared = 0;
   PruneReport pruned;
   std::int64_t n_cells_given_back = 0;  ///< of those, since a passage needs them
   std::vector<LineReport> passages, blockages;
@@ -62,7 +64,7 @@ struct Ocean {
   OceanReport report;
 };
 
-/// Steps in this order: wet cells, blockages, passages, pruning, bodies, order, culling.
+/// Steps in this order: wet cells, tips, blockages, passages, pruning, bodies, order, culling.
 /// `wet_fraction` is one value a cell of `grid`, which is closed. Error(input) when no cell is sea,
 /// or a point names no body.
 Ocean select_ocean(parallel::Executor& exec, const Grid& grid, const Array<double>& wet_fraction,

@@ -133,7 +133,9 @@ void fit_mesh_to_coast(Context& context, const Settings& settings, const Inputs&
                        [](const Vertex& a, const Vertex& b) { return a.spacing < b.spacing; });
   const LatLonField elevation_m = elevation_table(context, inputs, finest->spacing);
   const domain::FitReport fit = domain::fit_to_coast(
-      context, {elevation_m, sea_level_m(settings, inputs), settings.domain->options.least_wet},
+      context,
+      {elevation_m, sea_level_m(settings, inputs), settings.domain->options.least_wet,
+       settings.domain->options.tip_margin},
       {settings.surface, settings.latitude}, mesh);
   context.monitor.log(
       LogLevel::info,
@@ -162,6 +164,9 @@ DomainIds cull_to_domain(Context& context, const Settings& settings, const Input
                            ocean.report.area_m2 * 1e-12, " million km2, ",
                            ocean.report.n_bodies_kept, " of ", ocean.report.n_bodies, " bodies"));
   report.sections.push_back(section_of(ocean.report));
+  if (settings.domain->fits_coast) {
+    report.sections.back().values.emplace_back("n_tips_cleared", ocean.report.n_tips_cleared);
+  }
   report.sections.push_back(section_of(ocean.report.coast));
   grid = std::move(ocean.culled.grid);
   return {std::move(ocean.culled.old_cell), std::move(ocean.culled.old_vertex)};

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "domain/tips.hpp"
 #include "lifecycle/settings_reader.hpp"
 
 namespace delos {
@@ -78,6 +79,7 @@ std::optional<DomainSettings> read_domain(MapReader& root) {
   };
   out.options.prune = {removes("bays"), removes("channels")};
   out.fits_coast = domain.boolean("fit_coast", false);
+  if (out.fits_coast) out.options.tip_margin = domain::kTipMargin;
   const CellOrderSettings order = read_cell_order(domain, "parts", domain::CellOrder::hilbert);
   out.options.order = order.kind;
   out.options.n_parts = order.n_parts;
