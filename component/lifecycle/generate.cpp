@@ -29,6 +29,11 @@ namespace {
 
 void check_cost(Context& context, const Settings& settings, double n_cells,
                 const GenerateScope& scope) {
+  // A unit that is off by a thousand, say: nothing but the seeds would come out.
+  DELOS_CHECK(n_cells >= 1.0 || settings.generator != Generator::frontal, ErrorKind::input,
+              "the spacing asks for ", n_cells, " cells on a body of radius ",
+              settings.surface.scale_m() / 1000.0,
+              " km, less than one. Check the units of `sizing` and `surface`.");
   if (scope.with_dual) check_partitions(settings.output.partitions, n_cells);
   const Estimate estimate = estimate_cost(settings, n_cells, scope.with_dual);
   check_estimate(estimate, available_memory_bytes());

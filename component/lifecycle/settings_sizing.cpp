@@ -405,6 +405,11 @@ double read_arc(MapReader& reader, const std::string& key, double radius_m, cons
   if (parse_quantity(given, Dimension::length).error.empty()) {
     return reader.quantity(key, Dimension::length, Bounds::not_negative(), fallback) / radius_m;
   }
+  if (!given.empty() && !parse_quantity(given, Dimension::angle).error.empty()) {
+    reader.fail(key, "'", given,
+                "' is no distance along the surface. Give it in km or m, or as an ",
+                "angle in deg, e.g. '500 km' or '5 deg'.");
+  }
   return reader.quantity(key, Dimension::angle, Bounds::between(0.0, 180.0), fallback) * kRadPerDeg;
 }
 

@@ -48,8 +48,12 @@ ConfigNode load(const std::string& yaml, const std::string& name) {
   try {
     return convert(YAML::Load(yaml), name, 0);
   } catch (const YAML::Exception& error) {
-    throw Error(ErrorKind::config, text(at_line(name, error.mark), ": this is not YAML: ",
-                                        error.msg, ". Check quotes, colons and indentation."));
+    const bool has_tab = yaml.rfind("\t", 0) == 0 || yaml.find("\n\t") != std::string::npos ||
+                         yaml.find(" \t") != std::string::npos;
+    throw Error(ErrorKind::config,
+                text(at_line(name, error.mark), ": this is not YAML: ", error.msg,
+                     has_tab ? ". Put spaces in place of the tabs that some lines begin with."
+                             : ". Check quotes, colons and indentation."));
   }
 }
 

@@ -79,7 +79,7 @@ std::string wrong_unit(std::string_view text, std::string_view unit_text, const 
                        Dimension dimension) {
   const Words needed = words(dimension);
   if (unit == nullptr && dimension != Dimension::none) {
-    return delos::text("'", text, "' has the unknown unit '", unit_text, "'. ", needed.noun,
+    return delos::text("'", text, "' has the unknown unit '", unit_text, "'; ", needed.noun,
                        " is given in ", needed.units, ", e.g. '", needed.example, "'.");
   }
   return delos::text("'", text, "' is ",
@@ -109,7 +109,7 @@ Quantity parse_quantity(std::string_view text, Dimension dimension) {
       trimmed(std::string_view(rest, static_cast<std::size_t>(end - rest)));
   if (unit_text.empty()) {
     if (dimension != Dimension::none) {
-      result.error = delos::text("'", text, "' has no unit. ", needed.noun, " is given in ",
+      result.error = delos::text("'", text, "' has no unit; ", needed.noun, " is given in ",
                                  needed.units, ", e.g. '", needed.example, "'.");
     }
     return result;

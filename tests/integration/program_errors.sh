@@ -92,6 +92,19 @@ config '{type: constant, spacing: 500}'
 expect 'missing unit' 3 "'500' has no unit" c.yaml -o out
 config "$uniform" 'surface: {shape: ellipsoid, radii: [1 km, 0 km, 1 km]}'
 expect 'radii <= 0' 3 "surface.radii: 0 km: must be > 0 m" c.yaml -o out
+disc() { config "$uniform" "region: {disc: {centre: [10 deg, 50 deg], radius: $1}}"; }
+disc 900
+expect 'a distance without unit' 3 "region.disc.radius: '900' is no distance along the surface. Give it in km" c.yaml -o out
+disc '900 miles'
+expect 'a distance in miles' 3 "or as an angle in deg, e.g. '500 km'" c.yaml -o out
+disc '5 km'
+expect 'a region below the spacing' 4 "the region (key \`region\`) is smaller than a few cells: of the" c.yaml -o out
+config '{type: constant, spacing: 200000 km}'
+expect 'a spacing larger than the body' 4 "less than one. Check the units of \`sizing\`" c.yaml -o out
+printf 'sizing:\n  sources:\n\t- {type: constant, spacing: 500 km}\n' >c.yaml
+expect 'tabs' 3 "Put spaces in place of the tabs" c.yaml -o out
+config "$uniform" 'output: {view_radius: 10 deg}'
+expect 'a view without its centre' 3 "output.view_radius: is the radius of a disc around" c.yaml -o out
 config '{type: constant, spacing: 1 m}'
 expect '1 m spacing on the globe' 6 "cells" c.yaml -o out
 config "$uniform"
