@@ -44,7 +44,7 @@ void expect_sound(const Product& product) {
 TEST_CASE("another order moves no cell and keeps neighbours near, for any number of threads") {
   for (const std::string& head : {kFrontal, kIcosahedral}) {
     const Product kept = made(head, 2);
-    for (const std::string& order : {"hilbert", "metis, order_parts: 8"}) {
+    for (const std::string order : {"hilbert", "metis, order_parts: 8"}) {
       if (order[0] == 'm' && !kway::is_available()) continue;
       CAPTURE(head + order);
       const std::string yaml = head + "output: {order: " + order + "}\n";
