@@ -123,10 +123,10 @@ TEST_CASE("every configuration makes a sound grid of the expected size") {
     const auto defects = validate(product->mesh, settings.surface, options);
     CHECK_MESSAGE(defects.empty(), summary(defects));
     CHECK(quality.n_non_delaunay == 0);
-    CHECK(quality.euler == 2);
+    // A part's numbers are its own; what is expected is the whole triangulation.
+    if (!product->domain) CHECK(quality.euler == 2);
     CHECK(std::abs(quality.total_area_error) < 1e-12);
-    const double ratio =
-        static_cast<double>(quality.n_vertices) / product->report.expected_vertices;
+    const double ratio = product->mesh.n_vertices() / product->report.expected_vertices;
     CAPTURE(ratio);
     CHECK(ratio > 0.95);
     CHECK(ratio < 1.05);

@@ -162,9 +162,10 @@ TEST_CASE("what a domain can't be is said with its key") {
   refused("{land: {file: x.geojson}, sea_level: 3 m}", {"domain.sea_level", "land"});
   refused("{remove: [bay]}", {"domain.remove", "bays"});
   refused(
-      "{}\nremesh: {interval: P1M, sources: [{type: indicator, quiet: [0, 60 km], energetic: "
+      "{fit_coast: true}\nremesh: {interval: P1M, sources: [{type: indicator, quiet: [0, 60 km], "
+      "energetic: "
       "[1, 10 km]}]}",
-      {"domain", "remesh"});
+      {"domain", "fit_coast", "remesh"});
   expect_error(ErrorKind::input, {"domain.passages.file", "nowhere.geojson"}, [&] {
     made(uniform("900 km", kEmbedded + "domain: {passages: {file: nowhere.geojson}}\n"), 1);
   });
