@@ -77,11 +77,12 @@ LimitedArea limited_area(parallel::Executor& exec, const Grid& grid, std::span<c
     out.ring[cell] = 0;
     front.push_back(static_cast<Index>(cell));
   }
-  DELOS_CHECK(!front.empty(), ErrorKind::input,
-              "the region (key `region`) is smaller than a few cells: of the ", grid.n_cells(),
-              " cells of the grid ", std::count(inside.begin(), inside.end(), 1),
-              " have their centres in it, which no more than single edges join. Make it larger, or the "
-              "spacing finer.");
+  DELOS_CHECK(
+      !front.empty(), ErrorKind::input,
+      "the region (key `region`) is smaller than a few cells: of the ", grid.n_cells(),
+      " cells of the grid ", std::count(inside.begin(), inside.end(), 1),
+      " have their centres in it, which no more than single edges join. Make it larger, or the "
+      "spacing finer.");
   for (int ring = 1; ring <= widths.total(); ++ring) {
     front = next_ring(grid, front, ring, out.ring);
     DELOS_CHECK(!front.empty(), ErrorKind::input, "the region leaves no room for ring ", ring,
