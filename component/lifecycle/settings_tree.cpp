@@ -48,7 +48,7 @@ ConfigNode load(const std::string& yaml, const std::string& name) {
   try {
     return convert(YAML::Load(yaml), name, 0);
   } catch (const YAML::Exception& error) {
-    const bool has_tab = yaml.rfind("\t", 0) == 0 || yaml.find("\n\t") != std::string::npos ||
+    const bool has_tab = yaml.rfind('\t', 0) == 0 || yaml.find("\n\t") != std::string::npos ||
                          yaml.find(" \t") != std::string::npos;
     throw Error(ErrorKind::config,
                 text(at_line(name, error.mark), ": this is not YAML: ", error.msg,
