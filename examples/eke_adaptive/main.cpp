@@ -52,6 +52,17 @@ double total(const std::vector<double>& values, const delos::Grid& grid) {
   return sum;
 }
 
+/// With a section `domain` sea that was land has no value yet: it begins with the mean of the rest.
+void fill_bare(std::vector<double>& values, const delos::Grid& grid) {
+  double sum = 0.0, area_m2 = 0.0;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    if (std::isnan(values[i])) continue;
+    sum += values[i] * grid.cell_area_m2()[i];
+    area_m2 += grid.cell_area_m2()[i];
+  }
+  for (double& value : values) value = std::isnan(value) ? sum / area_m2 : value;
+}
+
 /// The host's model: here no more than one field, which must survive the remeshes.
 struct Model {
   explicit Model(const delos::Grid& grid) : grid(grid) {
@@ -69,6 +80,7 @@ struct Model {
     const delos::Transfer transfer(grid, now);
     std::vector<double> moved(static_cast<std::size_t>(now.n_cells()));
     transfer.apply(tracer, moved);
+    if (transfer.n_unmapped() > 0) fill_bare(moved, now);
     const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
     std::printf(
         "  %lld cells, %.1f %% of them as before; transfer %.2f s, its total off by %.1e\n",
