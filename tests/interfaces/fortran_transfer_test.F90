@@ -93,7 +93,7 @@ contains
     old_u(1) = 1
     call carrier%apply_velocity(old_u, u, route=DELOS_VELOCITY_STREAM_FUNCTION, ierr=ierr)
     call expect(ierr == DELOS_SUCCESS .and. any(abs(u) > 0), "velocities")
-    by_stream = u
+    allocate (by_stream, source=u)
     call carrier%apply_velocity(old_u, u, route=DELOS_VELOCITY_HELMHOLTZ, ierr=ierr)
     call expect(ierr == DELOS_SUCCESS .and. any(abs(u - by_stream) > 0), "by their potentials")
     call carrier%apply_velocity(old, u, ierr=ierr)
