@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/point_order.hpp"
 #include "remap/laplace.hpp"
 #include "remap/quadratic_fit.hpp"
-#include "remap/walk.hpp"
 
 namespace delos::remap {
 namespace {
 
-constexpr std::int64_t kCellGrain = 4096;      // 0.1 ms; part of the answer
-constexpr std::int64_t kPotentialBlock = 512;  // cells along the curve, 1 ms of fits
+constexpr std::int64_t kCellGrain = 4096;  // 0.1 ms; part of the answer
 // Residual of the potential against the flow at which it has arrived; 1e-12 is promised.
 constexpr double kPotentialArrived = 1e-14;
 // Net outflow of a connected part, against what crosses its edges, that is rounding of the areas
@@ -155,24 +152,12 @@ Array<double> transfer_potential(parallel::Executor& exec, const Grid& source, c
               "a velocity potential of ", chi.size(), " values was given for ", source.n_cells(),
               " cells: it belongs to another grid.");
   const Tiling cells = Tiling::cells(exec, source);
-  const std::span<const Vec3> points = target.cell_position;
-  const std::vector<Index> order = hilbert_order(exec, points);
-  Array<double> result(points.size());
-  const auto n = static_cast<std::int64_t>(points.size());
-  parallel::for_range(exec, n, kPotentialBlock, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Index> ids;
-    Index here = start_near(cells, points[at(order[at(begin)])]);
-    for (std::int64_t k = begin; k < end; ++k) {
-      const Vec3& p = points[at(order[at(k)])];
-      here = walk(cells, p, here);
-      double& value = result[at(order[at(k)])];
-      value = chi[at(here)];
-      if (is_same_point(source.cell_position[at(here)], p)) continue;
-      gather_rings(cells, here, ids);
-      value = quadratic_fit({source.cell_position, chi}, ids, p, value);
-    }
-  });
-  return result;
+  return fit_at_points(exec, cells, target.cell_position,
+                       [&](Index here, const Vec3& p, std::vector<Index>& ids) {
+                         if (is_same_point(source.cell_position[at(here)], p)) return chi[at(here)];
+                         gather_rings(cells, here, ids);
+                         return quadratic_fit({source.cell_position, chi}, ids, p, chi[at(here)]);
+                       });
 }
 
 void impose_divergence(Context& context, const Grid& grid, const WantedDivergence& wanted,

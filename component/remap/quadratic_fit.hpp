@@ -4,9 +4,14 @@
 #include <Eigen/Cholesky>
 #include <cmath>
 #include <span>
+#include <vector>
 
+#include "core/array.hpp"
+#include "core/parallel.hpp"
 #include "core/types.hpp"
+#include "geometry/point_order.hpp"
 #include "geometry/tangent_frame.hpp"
+#include "remap/walk.hpp"
 
 namespace delos::remap {
 
@@ -48,6 +53,29 @@ inline double quadratic_fit(const Scattered& data, std::span<const Index> ids, c
   constexpr double kSmall = 1e-12;
   for (int k = 3; k < 6; ++k) matrix(k, k) += kSmall;
   return reference + matrix.ldlt().solve(right)[0];
+}
+
+/// Points along the curve a task: 1 ms of fits.
+inline constexpr std::int64_t kFitBlock = 512;
+
+/// value(cell, p, ids) at each of the surface points, in their order: `cell` holds p, `ids` is
+/// scratch.
+template <class Value>
+Array<double> fit_at_points(parallel::Executor& exec, const Tiling& cells,
+                            std::span<const Vec3> points, Value&& value) {
+  const std::vector<Index> order = hilbert_order(exec, points);
+  Array<double> result(points.size());
+  const auto n = static_cast<std::int64_t>(points.size());
+  parallel::for_range(exec, n, kFitBlock, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Index> ids;
+    Index here = start_near(cells, points[at(order[at(begin)])]);
+    for (std::int64_t k = begin; k < end; ++k) {
+      const Vec3& p = points[at(order[at(k)])];
+      here = walk(cells, p, here);
+      result[at(order[at(k)])] = value(here, p, ids);
+    }
+  });
+  return result;
 }
 
 }  // namespace delos::remap

@@ -4,16 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "geometry/point_order.hpp"
 #include "remap/laplace.hpp"
 #include "remap/quadratic_fit.hpp"
-#include "remap/walk.hpp"
 
 namespace delos::remap {
 namespace {
 
 constexpr std::int64_t kStreamGrain = 8192;  // 0.1 ms; part of the answer
-constexpr std::int64_t kFitBlock = 512;      // vertices along the curve, 1 ms of fits
 
 // A dual edge shorter than this part of its edge would make the projection's weights unbounded.
 constexpr double kShortestEdge = 1e-6;
@@ -168,20 +165,10 @@ Array<double> transfer_stream_function(parallel::Executor& exec, const Grid& sou
               "a stream function of ", psi.size(), " values was given for ", source.n_vertices(),
               " vertices: it belongs to another grid.");
   const Tiling cells = Tiling::cells(exec, source);
-  const std::span<const Vec3> points = target.vertex_position;
-  const std::vector<Index> order = hilbert_order(exec, points);
-  Array<double> result(points.size());
-  const auto n = static_cast<std::int64_t>(points.size());
-  parallel::for_range(exec, n, kFitBlock, [&](std::int64_t begin, std::int64_t end) {
-    std::vector<Index> ids;
-    Index here = start_near(cells, points[at(order[at(begin)])]);
-    for (std::int64_t k = begin; k < end; ++k) {
-      const Vec3& p = points[at(order[at(k)])];
-      here = walk(cells, p, here);
-      result[at(order[at(k)])] = psi_at(cells, {source.vertex_position, psi}, here, p, ids);
-    }
-  });
-  return result;
+  return fit_at_points(exec, cells, target.vertex_position,
+                       [&](Index here, const Vec3& p, std::vector<Index>& ids) {
+                         return psi_at(cells, {source.vertex_position, psi}, here, p, ids);
+                       });
 }
 
 }  // namespace delos::remap
