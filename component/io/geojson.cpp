@@ -271,22 +271,30 @@ PolygonSet read_polygons(const std::string& path, const std::string& feature_nam
   return polygons;
 }
 
-std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select) {
+std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select,
+                                   const std::vector<std::string>& except) {
   const std::vector<Json> features = features_in(path);
   std::vector<LonLatLine> lines;
-  std::vector<std::string> known;
+  std::vector<std::string> known, selected;
+  const auto has = [](const std::vector<std::string>& labels, const std::string& label) {
+    return std::find(labels.begin(), labels.end(), label) != labels.end();
+  };
   bool found = select.empty();
   for (std::size_t i = 0; i < features.size(); ++i) {
     const std::vector<std::string> labels = labels_of(features[i]);
     known.insert(known.end(), labels.begin(), labels.end());
-    const bool is_wanted =
-        select.empty() || std::find(labels.begin(), labels.end(), select) != labels.end();
-    if (!is_wanted) continue;
+    if (!select.empty() && !has(labels, select)) continue;
     found = true;
-    add_lines(features[i], feature_where(path, i, name_of(features[i])), lines);
+    selected.insert(selected.end(), labels.begin(), labels.end());
+    const bool is_left_out = std::any_of(except.begin(), except.end(),
+                                         [&](const std::string& out) { return has(labels, out); });
+    if (!is_left_out) add_lines(features[i], feature_where(path, i, name_of(features[i])), lines);
   }
   if (!found) refuse_unknown_name(path, select, known);
-  DELOS_CHECK(!lines.empty(), ErrorKind::input, path,
+  for (const std::string& label : except) {
+    if (!has(selected, label)) refuse_unknown_name(path, label, selected);
+  }
+  DELOS_CHECK(!lines.empty() || !except.empty(), ErrorKind::input, path,
               ": holds no line. Give a file with LineStrings.");
   return lines;
 }

@@ -19,9 +19,11 @@ namespace delos {
 PolygonSet read_polygons(const std::string& path, const std::string& feature_name = "");
 
 /// The lines (LineString, MultiLineString) of the features of a file whose `name`, or one of whose
-/// `tags` (separated by ';'), is `select`; of all features with lines when that is empty.
-/// Longitudes as written. Error(input) as above, and when no line is found.
-std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select = "");
+/// `tags` (separated by ';'), is `select`; of all features with lines when that is empty. Without
+/// those whose name or tag is one of `except`. Longitudes as written. Error(input) as above, when
+/// no line is found, and when a word of `except` leaves nothing out.
+std::vector<LonLatLine> read_lines(const std::string& path, const std::string& select = "",
+                                   const std::vector<std::string>& except = {});
 
 /// Single points, a line, or one that closes (its first point is not repeated).
 struct LineFeature {

@@ -117,7 +117,8 @@ std::vector<LonLatLine> InputReader::lines(const LinesRequest& request) {
   if (request.file.file.empty()) return {};
   const std::string path = path_of(request.file);
   context_.monitor.advance(1);
-  return with_key(request.file.where, [&] { return read_lines(path, request.select); });
+  return with_key(request.file.where,
+                  [&] { return read_lines(path, request.select, request.except); });
 }
 
 void InputReader::add_domain(const DomainSettings& domain) {

@@ -19,9 +19,10 @@ FileRequest file_of(MapReader& keys) {
 LinesRequest read_lines_request(MapReader& domain, const char* key) {
   LinesRequest out;
   if (!domain.has(key)) return out;
-  MapReader keys = domain.map(key, {"file", "select"});
+  MapReader keys = domain.map(key, {"file", "select", "except"});
   out.file = file_of(keys);
   out.select = keys.string("select", "");
+  out.except = keys.strings("except", {}, {});
   return out;
 }
 

@@ -3,6 +3,7 @@
 // The section `domain`: which part of the surface the grid keeps.
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "domain/ocean.hpp"
 #include "lifecycle/file_request.hpp"
@@ -14,7 +15,8 @@ class MapReader;
 /// Lines in a GeoJSON file.
 struct LinesRequest {
   FileRequest file;
-  std::string select;  ///< name or tag of the features to take; empty: all
+  std::string select;               ///< name or tag of the features to take; empty: all
+  std::vector<std::string> except;  ///< names or tags of those of them to leave out
 };
 
 struct DomainSettings {

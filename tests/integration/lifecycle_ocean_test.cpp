@@ -130,6 +130,39 @@ TEST_CASE("the world ocean at 60 km: passages open, blockages shut, cells and ar
   CHECK(check_grid(context, *product.grid, 1e-9).empty());
 }
 
+TEST_CASE("the world ocean at 60 km as it is shipped has its inner seas, within 1 %") {
+  if (!has_etopo5()) return;
+  const Product product = made_from("world_ocean_60km.yaml", {});
+  CHECK(value_of<std::string>(product.report, "domain", "passages_not_open").empty());
+  CHECK(value_of<std::string>(product.report, "domain", "blockages_not_shut").empty());
+  CHECK(value_of<double>(product.report, "domain", "area_m2") ==
+        doctest::Approx(358.9e12).epsilon(0.01));
+  const Grid& grid = *product.grid;
+  CHECK(static_cast<double>(grid.n_cells()) == doctest::Approx(115.0e3).epsilon(0.01));
+  struct Sea {
+    const char* name;
+    double lon_deg, lat_deg;
+  };
+  for (const Sea& sea :
+       {Sea{"Mediterranean", 18.0, 35.0}, Sea{"Adriatic", 15.0, 43.2}, Sea{"Black Sea", 34.0, 43.0},
+        Sea{"Sea of Azov", 36.6, 46.2}, Sea{"Red Sea", 38.0, 21.0}, Sea{"Persian Gulf", 51.5, 27.0},
+        Sea{"Baltic", 19.5, 56.5}, Sea{"Bothnian Sea", 19.5, 62.0}, Sea{"White Sea", 38.3, 65.3},
+        Sea{"Hudson Bay", -85.0, 59.0}, Sea{"Foxe Basin", -78.5, 67.5},
+        Sea{"Sea of Japan", 135.0, 40.0}}) {
+    CAPTURE(sea.name);
+    const Vec3 point =
+        grid.surface.point({sea.lon_deg * kRadPerDeg, sea.lat_deg * kRadPerDeg}, grid.latitude);
+    double nearest = 1.0;
+    for (const Vec3& cell : grid.cell_position) nearest = std::min(nearest, (cell - point).norm());
+    CHECK(nearest * grid.surface.scale_m() < 40.0e3);  // the corner of a cell is 35 km from it
+  }
+  for (const LonLatLine& line :
+       read_lines(DELOS_SOURCE_DIR "/config/straits.geojson", "blockage")) {
+    CAPTURE(line.name);
+    CHECK(n_links_across(grid, line) == 0);
+  }
+}
+
 TEST_CASE("uniform grids have the ocean cells of published meshes within 3 %") {
   if (!has_etopo5()) return;
   struct Recipe {

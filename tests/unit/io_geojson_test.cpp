@@ -156,6 +156,29 @@ TEST_CASE("a GeoJSON error names file, feature and reason") {
   refuse(nested, "", {"nested too deeply"});
 }
 
+TEST_CASE("lines are taken by name or tag, but for those left out") {
+  const TemporaryFolder folder;
+  const auto strait = [](const std::string& name, const std::string& tags) {
+    return R"({"type":"Feature","properties":{"name":")" + name + R"(","tags":")" + tags +
+           R"("},"geometry":{"type":"LineString","coordinates":[[0,0],[1,1]]}})";
+  };
+  const std::string path = folder.write(
+      "l.geojson",
+      collection(strait("a", "sea;narrow") + "," + strait("b", "sea") + "," + strait("c", "land")));
+  const auto names = [&](const std::string& select, const std::vector<std::string>& except) {
+    std::string joined;
+    for (const LonLatLine& line : read_lines(path, select, except)) joined += line.name;
+    return joined;
+  };
+  CHECK(names("", {}) == "abc");
+  CHECK(names("sea", {}) == "ab");
+  CHECK(names("sea", {"b"}) == "a");
+  CHECK(names("sea", {"narrow"}) == "b");
+  CHECK(names("sea", {"a", "b"}).empty());
+  expect_error(ErrorKind::input, {"l.geojson", "'c'", "It has: "}, [&] { names("sea", {"c"}); });
+  expect_error(ErrorKind::input, {"'narow'", "mean 'narrow'"}, [&] { names("sea", {"narow"}); });
+}
+
 TEST_CASE("published regions and land polygons are read as they are") {
   const char* folder = std::getenv("DELOS_TEST_DATA");
   if (folder == nullptr) {
