@@ -75,3 +75,10 @@ int delos_transfer_n_unchanged(const delos_transfer* transfer, int64_t* n) {
     *n = transfer->transfer->n_unchanged();
   });
 }
+
+int delos_transfer_n_unmapped(const delos_transfer* transfer, int64_t* n) {
+  return call(transfer, __func__, [&] {
+    need(n, "n");
+    *n = transfer->transfer->n_unmapped();
+  });
+}

@@ -24,7 +24,9 @@ inline TransferOptions transfer_options(const delos_transfer_options& options) {
           .limiter = chosen(
               {TransferLimiter::gradient, TransferLimiter::none, TransferLimiter::assured_sum},
               options.limiter, "limiter"),
-          .n_levels = options.n_levels == 0 ? 1 : options.n_levels};
+          .n_levels = options.n_levels == 0 ? 1 : options.n_levels,
+          .normalization = chosen({TransferNormalization::covered, TransferNormalization::whole},
+                                  options.normalization, "normalization")};
 }
 
 /// Without options all are what their zeros mean.

@@ -22,19 +22,22 @@
 module delos
   use, intrinsic :: iso_c_binding, only: c_double, c_int32_t, c_int64_t
   use delos_binding, only: delos_quality, delos_worst, delos_certificate, delos_progress, &
-    delos_progress_callback, DELOS_SUCCESS, DELOS_ERROR_STATE, DELOS_ERROR_ARGUMENT, &
+    delos_progress_callback, DELOS_LOG_DEBUG, DELOS_LOG_INFO, DELOS_LOG_WARNING, DELOS_LOG_ERROR, &
+    DELOS_SUCCESS, DELOS_ERROR_STATE, DELOS_ERROR_ARGUMENT, &
     DELOS_ERROR_CONFIG, DELOS_ERROR_INPUT, DELOS_ERROR_OUTPUT, DELOS_ERROR_RESOURCE, &
     DELOS_ERROR_NOT_FOUND, DELOS_ERROR_INTERNAL, DELOS_ERROR_QUALITY, DELOS_ERROR_CANCELLED
   use delos_arrays, only: delos_one_based
   use delos_configs, only: delos_config
   use delos_grids, only: delos_grid, delos_version
+  use delos_logs, only: delos_log_callback
   use delos_clocks, only: delos_clock
   use delos_states, only: delos_state, delos_field, DELOS_LOCATION_CELL, DELOS_LOCATION_EDGE, &
     DELOS_LOCATION_VERTEX, DELOS_LOCATION_LAT_LON, DELOS_LOCATION_GRID
   use delos_components, only: delos_component
   use delos_transfers, only: delos_transfer, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, &
     DELOS_LIMITER_GRADIENT, DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, DELOS_VELOCITY_VECTORS, &
-    DELOS_VELOCITY_STREAM_FUNCTION, DELOS_VELOCITY_HELMHOLTZ
+    DELOS_VELOCITY_STREAM_FUNCTION, DELOS_VELOCITY_HELMHOLTZ, DELOS_NORMALIZATION_COVERED, &
+    DELOS_NORMALIZATION_WHOLE
   implicit none
   public
 end module delos

@@ -15,6 +15,10 @@ module delos_binding
     DELOS_ERROR_INTERNAL = 45, &
     DELOS_ERROR_QUALITY = 54, DELOS_ERROR_CANCELLED = 1001
 
+  ! Of a message.
+  integer, parameter :: DELOS_LOG_DEBUG = 0, DELOS_LOG_INFO = 1, DELOS_LOG_WARNING = 2, &
+    DELOS_LOG_ERROR = 3
+
   ! The structures of delos.h, member by member.
   type, bind(c) :: delos_quality
     integer(c_int64_t) :: n_obtuse = 0
@@ -126,6 +130,14 @@ module delos_binding
 
     function c_set_progress(context, callback, user_data) &
       bind(c, name="delos_context_set_progress") result(status)
+      import :: c_ptr, c_funptr, c_int
+      type(c_ptr), value :: context, user_data
+      type(c_funptr), value :: callback
+      integer(c_int) :: status
+    end function
+
+    function c_set_log(context, callback, user_data) &
+      bind(c, name="delos_context_set_log") result(status)
       import :: c_ptr, c_funptr, c_int
       type(c_ptr), value :: context, user_data
       type(c_funptr), value :: callback

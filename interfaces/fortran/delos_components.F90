@@ -8,6 +8,7 @@ module delos_components
   use delos_component_binding
   use delos_configs, only: delos_config
   use delos_grids, only: delos_grid
+  use delos_logs, only: delos_log_callback, log_link
   use delos_objects
   use delos_states, only: delos_state
   implicit none
@@ -18,9 +19,11 @@ module delos_components
   type, extends(delos_object) :: delos_component
     private
     type(c_funptr) :: on_progress = c_null_funptr
+    type(log_link) :: log
   contains
     procedure :: create => component_create               ! of a configuration
     procedure :: set_progress => component_set_progress   ! before create
+    procedure :: set_log => component_set_log             ! from now on
     procedure :: cancel => component_cancel               ! what makes a grid, that runs or is next
     procedure :: advertise => component_advertise         ! declares the fields, opens no file
     procedure :: realize => component_realize             ! makes the grid
@@ -60,6 +63,7 @@ contains
     if (status == DELOS_SUCCESS) then
       status = c_set_progress(self%context, self%on_progress, c_null_ptr)
     end if
+    if (status == DELOS_SUCCESS) status = self%log%attach(self%context)
     if (status == DELOS_SUCCESS) then
       status = c_component_create(self%context, config%handle, self%handle)
     end if
@@ -72,6 +76,13 @@ contains
     procedure(delos_progress_callback), optional :: callback
     self%on_progress = c_null_funptr
     if (present(callback)) self%on_progress = c_funloc(callback)
+  end subroutine
+
+  ! Messages of this object go to the procedure; without a callback: nowhere, as at first.
+  subroutine component_set_log(self, callback)
+    class(delos_component), intent(inout) :: self
+    procedure(delos_log_callback), optional :: callback
+    call self%log%point(self%context, callback)
   end subroutine
 
   ! Stops the realize or read_restart that runs, or the next one.

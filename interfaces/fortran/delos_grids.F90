@@ -6,6 +6,7 @@ module delos_grids
   use delos_levels, only: delos_grid_levels
   use delos_binding
   use delos_configs, only: delos_config
+  use delos_logs, only: delos_log_callback, log_link
   use delos_objects
   implicit none
   private
@@ -16,9 +17,11 @@ module delos_grids
   type, extends(delos_grid_levels) :: delos_grid
     private
     type(c_funptr) :: on_progress = c_null_funptr
+    type(log_link) :: log
   contains
     procedure :: generate              ! makes the grid
     procedure :: set_progress          ! for later generates
+    procedure :: set_log               ! from now on
     procedure :: cancel                ! the generate that runs
     procedure :: quality               ! numbers over the whole grid
     procedure :: certificate           ! as in every file
@@ -56,6 +59,7 @@ contains
     if (status == DELOS_SUCCESS) then
       status = c_set_progress(self%context, self%on_progress, c_null_ptr)
     end if
+    if (status == DELOS_SUCCESS) status = self%log%attach(self%context)
     if (status == DELOS_SUCCESS) status = c_generate(self%context, config%handle, self%handle)
     call report_status(status, ierr)
   end subroutine
@@ -66,6 +70,14 @@ contains
     procedure(delos_progress_callback), optional :: callback
     self%on_progress = c_null_funptr
     if (present(callback)) self%on_progress = c_funloc(callback)
+  end subroutine
+
+  ! Messages of every generate of this object go to the procedure; without a callback: nowhere, as at
+  ! first.
+  subroutine set_log(self, callback)
+    class(delos_grid), intent(inout) :: self
+    procedure(delos_log_callback), optional :: callback
+    call self%log%point(self%context, callback)
   end subroutine
 
   ! Stops the generate that runs, from its callback or another thread.

@@ -12,10 +12,12 @@ module delos_transfer_binding
     DELOS_LIMITER_ASSURED_SUM = 2
   integer, parameter :: DELOS_VELOCITY_VECTORS = 0, DELOS_VELOCITY_STREAM_FUNCTION = 1, &
     DELOS_VELOCITY_HELMHOLTZ = 2
+  integer, parameter :: DELOS_NORMALIZATION_COVERED = 0, DELOS_NORMALIZATION_WHOLE = 1
 
   type, bind(c) :: delos_transfer_options
     integer(c_int32_t) :: order = 0, limiter = 0, velocity = 0
     integer(c_int64_t) :: n_levels = 0
+    integer(c_int32_t) :: normalization = 0
   end type
 
   interface
@@ -58,4 +60,5 @@ module delos_transfer_binding
 
   procedure(count_getter), bind(c, name="delos_transfer_n_overlaps") :: c_n_overlaps
   procedure(count_getter), bind(c, name="delos_transfer_n_unchanged") :: c_n_unchanged
+  procedure(count_getter), bind(c, name="delos_transfer_n_unmapped") :: c_n_unmapped
 end module delos_transfer_binding

@@ -19,7 +19,8 @@ module delos_transfers
   private
   public :: delos_transfer, transfer_options, DELOS_ORDER_SECOND, DELOS_ORDER_FIRST, &
     DELOS_LIMITER_GRADIENT, DELOS_LIMITER_NONE, DELOS_LIMITER_ASSURED_SUM, &
-    DELOS_VELOCITY_VECTORS, DELOS_VELOCITY_STREAM_FUNCTION, DELOS_VELOCITY_HELMHOLTZ
+    DELOS_VELOCITY_VECTORS, DELOS_VELOCITY_STREAM_FUNCTION, DELOS_VELOCITY_HELMHOLTZ, &
+    DELOS_NORMALIZATION_COVERED, DELOS_NORMALIZATION_WHOLE
 
   ! Made once for a pair of grids, used for many fields. Keeps both grids' arrays, so that the grids
   ! may be destroyed. Without an order, a limiter, a route: the second, of gradients, by vectors.
@@ -33,6 +34,7 @@ module delos_transfers
     generic :: apply_velocity => velocity_of_values, velocity_of_levels
     procedure :: n_overlaps
     procedure :: n_unchanged
+    procedure :: n_unmapped
     final :: finish_transfer
   end type
 
@@ -68,37 +70,41 @@ contains
     call report_status(c_transfer_check(self%handle, from%handle, to%handle), ierr)
   end subroutine
 
-  pure function transfer_options(n_levels, order, limiter, route) result(options)
+  pure function transfer_options(n_levels, order, limiter, route, normalization) result(options)
     integer, intent(in) :: n_levels
-    integer, intent(in), optional :: order, limiter, route
+    integer, intent(in), optional :: order, limiter, route, normalization
     type(delos_transfer_options) :: options
     options%n_levels = int(n_levels, c_int64_t)
     if (present(order)) options%order = int(order, c_int32_t)
     if (present(limiter)) options%limiter = int(limiter, c_int32_t)
     if (present(route)) options%velocity = int(route, c_int32_t)
+    if (present(normalization)) options%normalization = int(normalization, c_int32_t)
   end function
 
   ! Means over cells, (n_cells) of each grid.
-  subroutine apply_to_values(self, from, to, order, limiter, ierr)
+  subroutine apply_to_values(self, from, to, order, limiter, normalization, ierr)
     class(delos_transfer), intent(in) :: self
     real(c_double), intent(in) :: from(:)
     real(c_double), intent(inout) :: to(:)
-    integer, intent(in), optional :: order, limiter
-    integer, intent(out), optional :: ierr
-    call report_status(c_transfer_apply(self%handle, from, size(from, kind=c_int64_t), to, &
-                                        size(to, kind=c_int64_t), transfer_options(1, order, limiter)), ierr)
-  end subroutine
-
-  ! (n_levels, n_cells) of each grid.
-  subroutine apply_to_levels(self, from, to, order, limiter, ierr)
-    class(delos_transfer), intent(in) :: self
-    real(c_double), intent(in) :: from(:, :)
-    real(c_double), intent(inout) :: to(:, :)
-    integer, intent(in), optional :: order, limiter
+    integer, intent(in), optional :: order, limiter, normalization
     integer, intent(out), optional :: ierr
     call report_status(c_transfer_apply(self%handle, from, size(from, kind=c_int64_t), to, &
                                         size(to, kind=c_int64_t), &
-                                        transfer_options(size(from, 1), order, limiter)), ierr)
+                                        transfer_options(1, order, limiter, &
+                                                         normalization=normalization)), ierr)
+  end subroutine
+
+  ! (n_levels, n_cells) of each grid.
+  subroutine apply_to_levels(self, from, to, order, limiter, normalization, ierr)
+    class(delos_transfer), intent(in) :: self
+    real(c_double), intent(in) :: from(:, :)
+    real(c_double), intent(inout) :: to(:, :)
+    integer, intent(in), optional :: order, limiter, normalization
+    integer, intent(out), optional :: ierr
+    call report_status(c_transfer_apply(self%handle, from, size(from, kind=c_int64_t), to, &
+                                        size(to, kind=c_int64_t), &
+                                        transfer_options(size(from, 1), order, limiter, &
+                                                         normalization=normalization)), ierr)
   end subroutine
 
   ! Velocities along the edges' normals, (n_edges) of each grid.
@@ -139,5 +145,13 @@ contains
     integer, intent(out), optional :: ierr
     integer(c_int64_t) :: n
     n = count_of(self%handle, c_n_unchanged, ierr)
+  end function
+
+  ! Cells of the second grid that the first does not cover: they get NaN.
+  function n_unmapped(self, ierr) result(n)
+    class(delos_transfer), intent(in) :: self
+    integer, intent(out), optional :: ierr
+    integer(c_int64_t) :: n
+    n = count_of(self%handle, c_n_unmapped, ierr)
   end function
 end module delos_transfers

@@ -144,28 +144,30 @@ contains
   end subroutine
 
   ! Means over cells, (n_owned) or more of the former grid -> (n_local) of the new one. Without an
-  ! order and a limiter: the second, of gradients.
-  subroutine transfer_vector(self, former, values, order, limiter, ierr)
+  ! order, a limiter and a normalization: the second, of gradients, covered.
+  subroutine transfer_vector(self, former, values, order, limiter, normalization, ierr)
     class(delos_mpi_component), intent(in) :: self
     real(c_double), intent(in), contiguous :: former(:)
     real(c_double), intent(inout), contiguous :: values(:)
-    integer, intent(in), optional :: order, limiter
+    integer, intent(in), optional :: order, limiter, normalization
     integer, intent(out), optional :: ierr
     call report_status(c_transfer(self%handle, former, size(former, kind=c_int64_t), values, &
                                   size(values, kind=c_int64_t), &
-                                  transfer_options(1, order, limiter)), ierr)
+                                  transfer_options(1, order, limiter, &
+                                                   normalization=normalization)), ierr)
   end subroutine
 
   ! (n_levels, n_owned) -> (n_levels, n_local).
-  subroutine transfer_table(self, former, values, order, limiter, ierr)
+  subroutine transfer_table(self, former, values, order, limiter, normalization, ierr)
     class(delos_mpi_component), intent(in) :: self
     real(c_double), intent(in), contiguous :: former(:, :)
     real(c_double), intent(inout), contiguous :: values(:, :)
-    integer, intent(in), optional :: order, limiter
+    integer, intent(in), optional :: order, limiter, normalization
     integer, intent(out), optional :: ierr
     call report_status(c_transfer(self%handle, former, size(former, kind=c_int64_t), values, &
                                   size(values, kind=c_int64_t), &
-                                  transfer_options(size(former, 1), order, limiter)), ierr)
+                                  transfer_options(size(former, 1), order, limiter, &
+                                                   normalization=normalization)), ierr)
   end subroutine
 
   ! Velocities along the normals of edges.

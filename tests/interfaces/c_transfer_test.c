@@ -95,7 +95,7 @@ static double* depths(const delos_grid* grid, int64_t* n) {
 static void test_errors(delos_context* context, delos_transfer* transfer, const delos_grid* before,
                         const delos_grid* after) {
   double values[4] = {0.0, 0.0, 0.0, 0.0};
-  delos_transfer_options options = {0, 0, 0, 0};
+  delos_transfer_options options = {0, 0, 0, 0, 0};
   delos_transfer* none = NULL;
   CHECK(delos_transfer_check(transfer, before, after) == DELOS_SUCCESS);
   CHECK_FAILS(delos_transfer_check(transfer, after, before), DELOS_ERROR_STATE, transfer,
@@ -110,6 +110,10 @@ static void test_errors(delos_context* context, delos_transfer* transfer, const 
   CHECK_FAILS(delos_transfer_apply(transfer, values, 4, values, 4, &options), DELOS_ERROR_ARGUMENT,
               transfer, "limiter = 7");
   options.limiter = 0;
+  options.normalization = 2;
+  CHECK_FAILS(delos_transfer_apply(transfer, values, 4, values, 4, &options), DELOS_ERROR_ARGUMENT,
+              transfer, "normalization = 2");
+  options.normalization = 0;
   options.velocity = -1;
   CHECK_FAILS(delos_transfer_apply_velocity(transfer, values, 4, values, 4, &options),
               DELOS_ERROR_ARGUMENT, transfer, "velocity = -1");
@@ -132,11 +136,12 @@ static void test_values(const delos_transfer* transfer, const delos_grid* before
                         const delos_grid* after, int is_shown) {
   int64_t n_before = 0, n_after = 0, n_edges_before = 0, n_edges_after = 0, n = 0;
   double least_before = 0.0, least_after = 0.0;
-  delos_transfer_options options = {0, 0, DELOS_VELOCITY_STREAM_FUNCTION, 0};
+  delos_transfer_options options = {0, 0, DELOS_VELOCITY_STREAM_FUNCTION, 0, 0};
   double *old = depths(before, &n_before), *wanted = depths(after, &n_after);
   double* depth = new_values(n_after);
   CHECK(delos_transfer_n_overlaps(transfer, &n) == DELOS_SUCCESS && n >= n_after);
   CHECK(delos_transfer_n_unchanged(transfer, &n) == DELOS_SUCCESS && n > 0 && n < n_after);
+  CHECK(delos_transfer_n_unmapped(transfer, &n) == DELOS_SUCCESS && n == 0);
   CHECK(delos_transfer_apply(transfer, old, n_before, depth, n_after, NULL) == DELOS_SUCCESS);
   CHECK(fabs(mass(after, depth, &least_after) / mass(before, old, &least_before) - 1.0) < 1e-14);
   CHECK(least_after >= least_before);
@@ -162,6 +167,60 @@ static void test_values(const delos_transfer* transfer, const delos_grid* before
   free(depth);
   free(wanted);
   free(old);
+}
+
+static delos_grid* grid_of(delos_context* context, delos_config* config) {
+  delos_grid* grid = NULL;
+  CHECK(delos_generate(context, config, &grid) == DELOS_SUCCESS);
+  return grid;
+}
+
+/* From the cells of a disc to those of the whole sphere. */
+static void test_border(delos_context* context) {
+  delos_config* config = NULL;
+  delos_transfer* transfer = NULL;
+  delos_transfer_options options = {0, 0, 0, 0, DELOS_NORMALIZATION_WHOLE};
+  const double *part_m2 = NULL, *whole_m2 = NULL;
+  double covered_m2 = 0.0, all_m2 = 0.0;
+  int64_t n_part = 0, n_whole = 0, n_bare = 0, n_nan = 0;
+  CHECK(delos_config_from_text(context,
+                               "sizing: {sources: [{type: constant, spacing: 900 km}]}\n"
+                               "refine: {tile_vertices: 500}\n",
+                               NULL, NULL, &config) == DELOS_SUCCESS);
+  delos_grid* const whole = grid_of(context, config);
+  CHECK(delos_config_set(config, "region", "{disc: {centre: [10 deg, 50 deg], radius: 3000 km}}") ==
+        DELOS_SUCCESS);
+  CHECK(delos_config_set(config, "sizing.sources.0.spacing", "500 km") == DELOS_SUCCESS);
+  delos_grid* const part = grid_of(context, config);
+  CHECK(delos_transfer_create(context, part, whole, &transfer) == DELOS_SUCCESS);
+  CHECK(delos_grid_cell_area_m2(part, &part_m2, &n_part) == DELOS_SUCCESS);
+  CHECK(delos_grid_cell_area_m2(whole, &whole_m2, &n_whole) == DELOS_SUCCESS);
+  CHECK(delos_transfer_n_unmapped(transfer, &n_bare) == DELOS_SUCCESS && n_bare > 0 &&
+        n_bare < n_whole);
+  double *ones = new_values(n_part), *means = new_values(n_whole), *shares = new_values(n_whole);
+  for (int64_t i = 0; i < n_part; ++i) {
+    ones[i] = 1.0;
+    all_m2 += part_m2[i];
+  }
+  CHECK(delos_transfer_apply(transfer, ones, n_part, means, n_whole, NULL) == DELOS_SUCCESS);
+  CHECK(delos_transfer_apply(transfer, ones, n_part, shares, n_whole, &options) == DELOS_SUCCESS);
+  for (int64_t i = 0; i < n_whole; ++i) {
+    CHECK(isnan(means[i]) ? isnan(shares[i]) : means[i] == 1.0 && shares[i] <= 1.0);
+    if (isnan(means[i])) {
+      ++n_nan;
+    } else {
+      covered_m2 += whole_m2[i] * shares[i];
+    }
+  }
+  CHECK(n_nan == n_bare);
+  CHECK(fabs(covered_m2 / all_m2 - 1.0) < 1e-13);
+  options.limiter = DELOS_LIMITER_ASSURED_SUM;
+  CHECK_FAILS(delos_transfer_apply(transfer, ones, n_part, means, n_whole, &options),
+              DELOS_ERROR_INPUT, transfer, "border");
+  free(shares);
+  free(means);
+  free(ones);
+  CHECK(delos_transfer_destroy(transfer) == DELOS_SUCCESS);
 }
 
 int main(int argc, char** argv) {
@@ -193,6 +252,7 @@ int main(int argc, char** argv) {
   CHECK(delos_grid_destroy(before) == DELOS_SUCCESS);
   CHECK(delos_context_destroy(host.context) == DELOS_SUCCESS);
   CHECK(delos_grid_digest(shared, &digest) == DELOS_SUCCESS && strlen(digest) == 64);
+  if (!is_shown) test_border(other);
   CHECK(delos_transfer_destroy(transfer) == DELOS_SUCCESS);
   CHECK_FAILS(delos_transfer_check(transfer, shared, shared), DELOS_ERROR_STATE, transfer,
               "destroyed");

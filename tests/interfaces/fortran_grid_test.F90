@@ -6,8 +6,8 @@ module fortran_grid_test
   use delos
   implicit none
   integer :: n_failed = 0
-  integer :: n_progress = 0
-  logical :: wants_stop = .false.
+  integer :: n_progress = 0, n_messages = 0, n_bad_messages = 0
+  logical :: wants_stop = .false., has_estimate = .false.
   type(delos_grid) :: watched
 
 contains
@@ -143,6 +143,40 @@ contains
     call expect(.not. watched%is_made(), "and there is no grid")
     call watched%destroy()
   end subroutine
+
+  subroutine on_log(level, message)
+    integer, intent(in) :: level
+    character(len=*), intent(in) :: message
+    n_messages = n_messages + 1
+    if (level < DELOS_LOG_DEBUG .or. level > DELOS_LOG_ERROR .or. len(message) == 0 &
+        .or. scan(message, new_line("a")//achar(0)) > 0) n_bad_messages = n_bad_messages + 1
+    if (index(message, "expecting ") == 1) has_estimate = .true.
+  end subroutine
+
+  ! Messages come whole, until the procedure is taken away.
+  subroutine test_log()
+    type(delos_grid) :: grid
+    type(delos_config) :: config
+    integer :: ierr, n_before
+    call config%from_text(small_yaml())
+    call grid%set_log(on_log)
+    call grid%generate(config, threads=2, ierr=ierr)
+    call expect(ierr == DELOS_SUCCESS .and. n_messages > 0, "messages are heard")
+    call expect(n_bad_messages == 0, "with a level and a text, without a line end")
+    call expect(has_estimate, "and they are what delos says")
+    n_before = n_messages
+    call grid%generate(config, ierr=ierr)
+    call expect(n_messages >= 2*n_before, "by later generates too")
+    n_before = n_messages
+    call grid%set_log()
+    call grid%generate(config, ierr=ierr)
+    call expect(ierr == DELOS_SUCCESS .and. n_messages == n_before, "nobody listens any more")
+    call grid%destroy()
+    call grid%set_log(on_log)
+    call grid%generate(config, ierr=ierr)
+    call expect(n_messages > n_before, "and again, after destroy")
+  end subroutine
+
   subroutine test_layers(plain)
     type(delos_grid), intent(in) :: plain
     type(delos_config) :: config
@@ -192,6 +226,7 @@ program main
     call test_numbers(grid)
     call test_errors(grid)
     call test_progress()
+    call test_log()
   end if
   call grid%destroy()
   call config%destroy()

@@ -4,11 +4,22 @@
 module fortran_transfer_test
   use, intrinsic :: iso_fortran_env, only: error_unit, output_unit
   use, intrinsic :: iso_c_binding, only: c_double, c_int64_t
+  use, intrinsic :: ieee_arithmetic, only: ieee_is_nan
   use delos
   implicit none
   integer :: n_failed = 0
+  logical :: has_heard = .false.
+  character(len=:), allocatable :: decision
 
 contains
+
+  ! Keeps what the component says of its alarm.
+  subroutine on_log(level, message)
+    integer, intent(in) :: level
+    character(len=*), intent(in) :: message
+    has_heard = .true.
+    if (level == DELOS_LOG_INFO .and. index(message, "2001-01-03") > 0) decision = message
+  end subroutine
 
   subroutine expect(condition, what)
     logical, intent(in) :: condition
@@ -101,6 +112,42 @@ contains
     call expect(index(carrier%message(), "generation 1") > 0, "and the message has the grids")
   end subroutine
 
+  ! From the cells of a disc to those of the whole sphere.
+  subroutine test_border()
+    type(delos_config) :: config
+    type(delos_grid) :: part, whole
+    type(delos_transfer) :: carrier
+    real(c_double), pointer :: part_m2(:), whole_m2(:)
+    real(c_double), allocatable :: ones(:), means(:), shares(:)
+    integer :: ierr
+    integer(c_int64_t) :: n_bare
+    call config%from_text("sizing: {sources: [{type: constant, spacing: 900 km}]}"//new_line("a")// &
+                          "refine: {tile_vertices: 500}")
+    call whole%generate(config)
+    call config%set("region", "{disc: {centre: [10 deg, 50 deg], radius: 3000 km}}")
+    call config%set("sizing.sources.0.spacing", "500 km")
+    call part%generate(config, ierr=ierr)
+    call expect(ierr == DELOS_SUCCESS, "a part: "//part%message())
+    call carrier%create(part, whole, ierr=ierr)
+    n_bare = carrier%n_unmapped()
+    call expect(n_bare > 0 .and. n_bare < whole%n_cells(), "some cells are bare")
+    allocate (ones(part%n_cells()), source=1d0)
+    allocate (means(whole%n_cells()), shares(whole%n_cells()))
+    call carrier%apply(ones, means, ierr=ierr)
+    call expect(ierr == DELOS_SUCCESS .and. count(ieee_is_nan(means)) == n_bare, "bare cells get NaN")
+    call expect(all(ieee_is_nan(means) .or. abs(means - 1) <= 0), "a constant stays where there is any")
+    call carrier%apply(ones, shares, normalization=DELOS_NORMALIZATION_WHOLE, ierr=ierr)
+    part_m2 => part%cell_area_m2()
+    whole_m2 => whole%cell_area_m2()
+    call expect(abs(sum(shares*whole_m2, .not. ieee_is_nan(shares))/sum(part_m2) - 1) < 1d-13, &
+                "the mass is kept")
+    call carrier%apply(ones, means, limiter=DELOS_LIMITER_ASSURED_SUM, ierr=ierr)
+    call expect(ierr == DELOS_ERROR_INPUT, "no assured sum with a border")
+    call carrier%apply(ones, means, normalization=2, ierr=ierr)
+    call expect(ierr == DELOS_ERROR_ARGUMENT .and. index(carrier%message(), "normalization = 2") > 0, &
+                "no such normalization")
+  end subroutine
+
   ! Their bits.
   subroutine show(values)
     real(c_double), intent(in) :: values(:)
@@ -122,22 +169,26 @@ program main
   integer :: ierr
   call get_command_argument(1, argument)
   call create(component, clock)
+  call component%set_log(on_log)
   call component%get_grid(before)
   call expect(component%remesh_decision() == "", "no alarm yet")
   call run_day(component, clock, 0)
   call run_day(component, clock, 1)
   call expect(index(component%remesh_decision(), "remesh") > 0, "why it remeshed")
   call expect(component%remesh_failure() == "", "it did not fail")
+  call expect(has_heard .and. decision == component%remesh_decision(), "the log has the decision")
   call component%get_grid(after, ierr)
   call expect(before%generation() == 1 .and. after%generation() == 2, "two generations")
   call carrier%create(before, after, ierr=ierr)
   call expect(ierr == DELOS_SUCCESS, "a transfer: "//carrier%message())
   call carrier%check(after, before, ierr)
   call expect(ierr == DELOS_ERROR_STATE, "the wrong way round")
-  call expect(carrier%n_overlaps() >= after%n_cells() .and. carrier%n_unchanged() > 0, "numbers")
+  call expect(carrier%n_overlaps() >= after%n_cells() .and. carrier%n_unchanged() > 0 &
+              .and. carrier%n_unmapped() == 0, "numbers")
   call component%destroy()
   call expect(len(before%digest()) == 64, "a grid outlives its component")
   call test_values(carrier, before, after, argument == "values")
+  if (argument /= "values") call test_border()
   call carrier%destroy()
   call expect(carrier%n_overlaps() == 0, "a destroyed transfer is empty")
   call before%destroy()

@@ -35,7 +35,7 @@ extern "C" {
 
 /* Grows when a program compiled with an older header can't use the library: compare it with
  * delos_abi_version() once, at the start. */
-#define DELOS_ABI_VERSION 3
+#define DELOS_ABI_VERSION 4
 DELOS_C_API int delos_abi_version(void);
 /* "major.minor.patch" of the library that runs; static storage. */
 DELOS_C_API const char* delos_version(void);

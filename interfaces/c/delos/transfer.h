@@ -44,18 +44,26 @@ enum {
    * forty rounds of a solver, then some twenty. */
   DELOS_VELOCITY_HELMHOLTZ = 2
 };
+/* Of a cell that the other grid, which has a border, covers in part. */
+enum {
+  DELOS_NORMALIZATION_COVERED = 0, /* the mean over what is covered ("fracarea"): keeps constants */
+  /* That mean times the covered fraction ("destarea"): area times value keeps the mass. */
+  DELOS_NORMALIZATION_WHOLE = 1
+};
 
-/* All 0 is the default, and so is NULL. */
+/* All 0 is the default, and so is NULL. Members are added at the end only, and with them
+ * DELOS_ABI_VERSION grows. */
 typedef struct delos_transfer_options {
-  int32_t order;    /* DELOS_ORDER_... */
-  int32_t limiter;  /* DELOS_LIMITER_... */
-  int32_t velocity; /* DELOS_VELOCITY_..., of delos_transfer_apply_velocity */
-  int64_t n_levels; /* values of a cell or an edge, which stand together; 0 = 1 */
+  int32_t order;         /* DELOS_ORDER_... */
+  int32_t limiter;       /* DELOS_LIMITER_... */
+  int32_t velocity;      /* DELOS_VELOCITY_..., of delos_transfer_apply_velocity */
+  int64_t n_levels;      /* values of a cell or an edge, which stand together; 0 = 1 */
+  int32_t normalization; /* DELOS_NORMALIZATION_..., of delos_transfer_apply */
 } delos_transfer_options;
 
 /* With the context's threads as they are now; its progress and delos_context_cancel serve this
  * call. The grids may be other contexts', and may be destroyed afterwards: the transfer keeps their
- * arrays. DELOS_ERROR_INPUT when they lie on different surfaces or one has a border. */
+ * arrays. DELOS_ERROR_INPUT when they lie on different surfaces. They may have a border. */
 DELOS_C_API int delos_transfer_create(delos_context* context, const delos_grid* from,
                                       const delos_grid* to, delos_transfer** transfer);
 /* Frees it but for a small shell. NULL is allowed. */
@@ -67,7 +75,9 @@ DELOS_C_API int delos_transfer_check(const delos_transfer* transfer, const delos
  * value times area is kept within 1e-14, a constant and cells that did not change to the last bit;
  * with a limiter, or to first order, no value leaves the range of the cells below it and (second
  * order) of their neighbours. Values must be finite. The same bits for any number of threads.
- * DELOS_ERROR_INPUT when a size does not fit. */
+ * Between grids with a border a cell gets the mean over what the first grid covers of it, or that
+ * times the covered fraction (options->normalization), NaN where that is nothing. DELOS_ERROR_INPUT
+ * when a size does not fit, or for DELOS_LIMITER_ASSURED_SUM when a grid has a border. */
 DELOS_C_API int delos_transfer_apply(const delos_transfer* transfer, const double* from,
                                      int64_t n_from_values, double* to, int64_t n_to_values,
                                      const delos_transfer_options* options);
@@ -81,6 +91,8 @@ DELOS_C_API int delos_transfer_apply_velocity(const delos_transfer* transfer, co
 DELOS_C_API int delos_transfer_n_overlaps(const delos_transfer* transfer, int64_t* n);
 /* Cells of the second grid that are cells of the first. */
 DELOS_C_API int delos_transfer_n_unchanged(const delos_transfer* transfer, int64_t* n);
+/* Cells of the second grid that the first does not cover: they get NaN. */
+DELOS_C_API int delos_transfer_n_unmapped(const delos_transfer* transfer, int64_t* n);
 
 #ifdef __cplusplus
 }
