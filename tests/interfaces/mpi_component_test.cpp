@@ -4,18 +4,16 @@
 #define DOCTEST_CONFIG_IMPLEMENT
 #include <doctest/doctest.h>
 
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
-#include <delos/distributed.hpp>
 #include <filesystem>
 #include <fstream>
 #include <limits>
 #include <thread>
 
-#include "mpi_support.hpp"
+#include "mpi_component_support.hpp"
 
 using delos::InitializePhase;
 using delos::Location;
@@ -34,90 +32,9 @@ remesh:
   interval: P2D
   sources: [{type: eke, quiet: [0.05 m/s, 1200 km], energetic: [0.5 m/s, 500 km]}]
 )";
-constexpr const char* kEast = "surface_eastward_sea_water_velocity";
-constexpr const char* kNorth = "surface_northward_sea_water_velocity";
-constexpr double kStrong_ms = 0.6;
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 delos::Config config() { return delos::Config::from_text(kConfig); }
-
-delos::mpi::Options options(int root = 0) {
-  delos::mpi::Options out;
-  out.generate.threads = 1;
-  out.root = root;
-  return out;
-}
-
-delos::Clock clock_at(int day) {
-  delos::Clock clock(
-      {.start = delos::Time::parse("2001-01-01"), .step = delos::TimeInterval::of_days(1)});
-  for (int i = 0; i < day; ++i) clock.advance();
-  return clock;
-}
-
-/// A day's eastward velocity at a place: to and fro in the north.
-double eastward(int day, double z) {
-  return z > 0.0 ? (day % 2 == 0 ? 1.0 : -1.0) * kStrong_ms * z : 0.0;
-}
-
-std::vector<double> eastward_all(int day, std::span<const double> position) {
-  std::vector<double> out;
-  for (std::size_t i = 2; i < position.size(); i += 3) out.push_back(eastward(day, position[i]));
-  return out;
-}
-
-void give_imports(DistributedComponent& component, int day) {
-  const delos::LocalGrid& own = component.grid().local();
-  const auto n_owned = static_cast<std::size_t>(own.n_owned(Location::cell));
-  component.set_import(kEast, eastward_all(day, own.cell_position().first(3 * n_owned)));
-  component.set_import(kNorth, std::vector<double>(n_owned, 0.0));
-}
-
-bool run_day(DistributedComponent& component, int day) {
-  give_imports(component, day);
-  return component.run(clock_at(day));
-}
-
-/// The same by a component of one process, on the root alone.
-void run_day(delos::Component& serial, int day) {
-  const delos::Grid grid = serial.grid();
-  serial.import_state().field(kEast).store(eastward_all(day, grid.cell_position()));
-  serial.import_state().field(kNorth).store(
-      std::vector<double>(static_cast<std::size_t>(grid.n_cells()), 0.0));
-  serial.run(serial.import_state(), serial.export_state(), clock_at(day));
-}
-
-bool same_bits(std::span<const double> a, std::span<const double> b) {
-  return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](double x, double y) {
-    return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y);
-  });
-}
-
-/// Exports of all processes together are those of the serial component, and halos the owners'.
-void compare_exports(const DistributedComponent& component, const delos::Component* serial) {
-  const DistributedGrid& grid = component.grid();
-  for (const delos::mpi::FieldInfo& info : component.exports()) {
-    CAPTURE(info.name);
-    const auto values = component.get_export(info.name);
-    if (info.location == Location::grid) {
-      double of_root = values[0];
-      MPI_Bcast(&of_root, 1, MPI_DOUBLE, grid.root(), grid.communicator());
-      CHECK(values.size() == 1);
-      CHECK(values[0] == of_root);
-      if (serial) CHECK(same_bits(values, serial->export_state().field(info.name).data()));
-      continue;
-    }
-    const auto whole = grid.gather(values, info.location, info.n_components);
-    if (serial) CHECK(same_bits(whole, serial->export_state().field(info.name).data()));
-    std::vector<double> halo(values.begin(), values.end());
-    grid.exchange(std::span(halo), info.location, info.n_components);
-    CHECK(same_bits(halo, values));
-  }
-  if (serial) CHECK(grid.digest() == serial->grid().digest());
-  CHECK(is_same_everywhere(grid.digest()));
-  CHECK(grid.generation() == component.generation());
-  CHECK(component.get_export("grid_generation")[0] == static_cast<double>(component.generation()));
-}
 
 std::string path_of(const std::string& name) {
   return "mpi_component." + std::to_string(n_ranks()) + "." + name + ".nc";
@@ -219,15 +136,6 @@ TEST_CASE("fields of the host move to the new grid as those of one process do") 
   run_day(component, 0);
   CHECK(begins(thrown([&] { static_cast<void>(component.transfer({})); }),
                "state: transfer was called, but the last run made no new grid"));
-  const auto filled = [](std::span<const double> position, int n_levels) {
-    std::vector<double> out;
-    for (std::size_t i = 0; i < position.size(); i += 3) {
-      for (int level = 0; level < n_levels; ++level) {
-        out.push_back(1.0 + position[i] * position[i + 1] + level * position[i + 2]);
-      }
-    }
-    return out;
-  };
   const DistributedGrid old = component.grid();
   auto tracer = filled(old.local().cell_position(), 2);
   const auto velocity = filled(old.local().edge_position(), 1);
