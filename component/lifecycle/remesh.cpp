@@ -27,7 +27,7 @@ std::int64_t budget_of(const Settings& settings) {
   return settings.remesh->cells > 0 ? settings.remesh->cells : settings.sizing.recipe.cells;
 }
 
-Wanted wanted_now(Context& context, const Product& old, const WholeGrid& whole, Remesh& remesh) {
+Wanted wanted_now(Context& context, const Product& old, WholeGrid& whole, Remesh& remesh) {
   Wanted out;
   const Settings& settings = old.settings;
   // After a restart nothing has been read yet.
@@ -54,19 +54,21 @@ Mismatch mismatch_of(Context& context, const Product& product, const Inputs& inp
 }
 
 /// The statistics on the new grid. What begins anew, or is on the host's table, needs no transfer.
-Solution moved(Context& context, const Solution& solution, const Product& old,
-               const WholeGrid& whole, const Product& product) {
-  const WholeGrid new_whole(context, product);
-  const Phase phase(context.monitor, "transfer", product.grid->n_cells());
+Solution moved(Context& context, const Solution& solution, const Product& old, WholeGrid& whole,
+               const Product& product) {
+  WholeGrid new_whole(context, product);
+  std::optional<Phase> phase;
   std::optional<remap::Transfer> transfer;
   const remap::TransferOptions options{remap::Order::first, remap::Limiter::none};
   Solution out = solution;
   out.move(context.exec, *old.grid, *product.grid,
            [&](std::span<const double> from, std::span<double> to) {
              if (!transfer) {
-               transfer.emplace(context, remap::Tiling::cells(context.exec, whole.grid()),
-                                remap::Tiling::cells(context.exec, new_whole.grid()),
-                                remap::Order::first);
+               // Both are phases, and phases do not nest.
+               const Grid &before = whole.grid(), &after = new_whole.grid();
+               phase.emplace(context.monitor, "transfer", after.n_cells());
+               transfer.emplace(context, remap::Tiling::cells(context.exec, before),
+                                remap::Tiling::cells(context.exec, after), remap::Order::first);
              }
              if (!whole.is_culled()) return transfer->apply(context.exec, from, to, options);
              // A cell that was land has neighbours that were sea.
@@ -78,7 +80,7 @@ Solution moved(Context& context, const Solution& solution, const Product& old,
 }
 
 /// The old grid made to fit.
-std::shared_ptr<const Product> rebuilt(Context& context, const Product& old, const WholeGrid& whole,
+std::shared_ptr<const Product> rebuilt(Context& context, const Product& old, WholeGrid& whole,
                                        Wanted wanted) {
   const std::vector<char> is_fixed =
       in_fixed_regions(context.exec, wanted.inputs.fixed, whole.grid().cell_lon_lat);
@@ -103,19 +105,18 @@ RemeshOutcome try_remesh(Context& context, const Product& old, const Time& now, 
   RemeshOutcome out;
   PolicyInput input{now, true, remesh.solution.is_ready(), {}, 0.0};
   try {
-    std::optional<WholeGrid> whole;
+    WholeGrid whole(context, old);
     std::optional<Wanted> wanted;
     if (input.has_statistics) {
-      whole.emplace(context, old);
-      wanted = wanted_now(context, old, *whole, remesh);
+      wanted = wanted_now(context, old, whole, remesh);
       input.mismatch = mismatch_of(context, old, wanted->inputs, wanted->sized.field);
       input.expected_cells = wanted->n_expected;
     }
     out.decision = decide(settings_of(old).policy, input, remesh.policy);
     context.monitor.log(LogLevel::info, out.decision.text);
     if (!out.decision.remesh) return out;
-    std::shared_ptr<const Product> product = rebuilt(context, old, *whole, std::move(*wanted));
-    out.solution = moved(context, remesh.solution, old, *whole, *product);
+    std::shared_ptr<const Product> product = rebuilt(context, old, whole, std::move(*wanted));
+    out.solution = moved(context, remesh.solution, old, whole, *product);
     const PolicyOptions& policy = settings_of(old).policy;
     out.has_followed = mismatch_of(context, *product, *remesh.inputs, product->spacing).total() <=
                        policy.threshold * (1.0 - policy.hysteresis);

@@ -212,13 +212,12 @@ const Solution::Tracker& Solution::tracker_of(SolutionField field) const {
                        [&](const Tracker& tracker) { return tracker.field == field; });
 }
 
-SpacingSource Solution::source_of(parallel::Executor& exec, const WholeGrid& whole,
+SpacingSource Solution::source_of(parallel::Executor& exec, WholeGrid& whole,
                                   const SolutionSource& source) const {
-  const Grid& grid = whole.grid();
   const auto raster = [&](const Tracker& tracker, std::span<const double> values) {
     return tracker.is_in_cells()
-               ? raster_of_cells(exec, grid, whole.spread(values), cell_resolution_rad(grid),
-                                 source.name)
+               ? raster_of_cells(exec, whole.grid(), whole.spread(values),
+                                 cell_resolution_rad(whole.grid()), source.name)
                : raster_of_table(tracker.axes.lon_deg, tracker.axes.lat_deg, values, source.name);
   };
   const Tracker& tracker = tracker_of(source.field);
@@ -227,7 +226,8 @@ SpacingSource Solution::source_of(parallel::Executor& exec, const WholeGrid& who
     const Tracker& flow = tracker_of(flow_of(source.field));
     const Raster east = raster(flow, flow.statistics->mean(0));
     const Raster north = raster(flow, flow.statistics->mean(1));
-    signal = spread_upstream(exec, signal, {east, north}, *source.upstream, grid.surface.scale_m());
+    signal =
+        spread_upstream(exec, signal, {east, north}, *source.upstream, whole.surface().scale_m());
   }
   auto field = std::make_shared<const Raster>(std::move(signal));
   if (const auto* const wanted = std::get_if<WantedSpacing>(&source.law)) {
@@ -238,8 +238,7 @@ SpacingSource Solution::source_of(parallel::Executor& exec, const WholeGrid& who
   return {source.name, std::move(law)};
 }
 
-std::vector<SpacingSource> Solution::sources(parallel::Executor& exec,
-                                             const WholeGrid& whole) const {
+std::vector<SpacingSource> Solution::sources(parallel::Executor& exec, WholeGrid& whole) const {
   std::vector<SpacingSource> out;
   out.reserve(sources_.size());
   for (const SolutionSource& source : sources_) out.push_back(source_of(exec, whole, source));

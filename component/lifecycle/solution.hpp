@@ -32,8 +32,8 @@ class Solution {
   /// Whether all statistics are.
   bool is_ready() const;
   /// The sources, with what the statistics in the cells of the product of `whole` say, and nothing
-  /// elsewhere; after is_ready().
-  std::vector<SpacingSource> sources(parallel::Executor& exec, const WholeGrid& whole) const;
+  /// elsewhere; after is_ready(). The whole grid is made where statistics are in cells.
+  std::vector<SpacingSource> sources(parallel::Executor& exec, WholeGrid& whole) const;
 
   /// What a restart file keeps of one field's statistics; refers to them.
   struct Saved {
@@ -66,7 +66,7 @@ class Solution {
                    const Grid& grid) const;
   const Tracker& tracker_of(SolutionField field) const;
   void track(SolutionField field);
-  SpacingSource source_of(parallel::Executor& exec, const WholeGrid& whole,
+  SpacingSource source_of(parallel::Executor& exec, WholeGrid& whole,
                           const SolutionSource& source) const;
 
   std::vector<SolutionSource> sources_;

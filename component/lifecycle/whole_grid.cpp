@@ -42,35 +42,40 @@ double mean_of_neighbours(const Grid& grid, Index cell, const Array<double>& val
 
 }  // namespace
 
-WholeGrid::WholeGrid(Context& context, const Product& product) : product_(product) {
-  if (!product.domain) return;
-  const Phase phase(context.monitor, "dual", product.mesh.n_vertices());
-  made_ = build_grid(context, product.settings.surface, product.settings.latitude, product.mesh);
+const Grid& WholeGrid::grid() {
+  if (!is_culled()) return *product_.grid;
+  if (!made_) {
+    const Phase phase(context_.monitor, "dual", product_.mesh.n_vertices());
+    made_ =
+        build_grid(context_, product_.settings.surface, product_.settings.latitude, product_.mesh);
+  }
+  return *made_;
 }
 
 Array<double> WholeGrid::spread(std::span<const double> values) const {
   if (!is_culled()) return {values.begin(), values.end()};
   Array<double> out;
-  out.assign(at(grid().n_cells()), kNoValue);
+  out.assign(at(product_.mesh.n_vertices()), kNoValue);
   const Array<Index>& cells = product_.domain->cells;
   for (std::size_t i = 0; i < values.size(); ++i) out[at(cells[i])] = values[i];
   return out;
 }
 
-Array<double> WholeGrid::flooded(std::span<const double> values) const {
+Array<double> WholeGrid::flooded(std::span<const double> values) {
   Array<double> out = spread(values);
   if (!is_culled()) return out;
+  const Grid& whole = grid();
   const Array<Index>& cells = product_.domain->cells;
   std::vector<char> is_reached(out.size(), 0);
   for (const Index cell : cells) is_reached[at(cell)] = 1;
-  std::vector<Index> ring = outside_of(grid(), {cells.begin(), cells.end()}, is_reached);
+  std::vector<Index> ring = outside_of(whole, {cells.begin(), cells.end()}, is_reached);
   std::vector<double> means;
   while (!ring.empty()) {
     // By the ring before alone: the order within a ring does not matter.
     means.clear();
-    for (const Index cell : ring) means.push_back(mean_of_neighbours(grid(), cell, out));
+    for (const Index cell : ring) means.push_back(mean_of_neighbours(whole, cell, out));
     for (std::size_t i = 0; i < ring.size(); ++i) out[at(ring[i])] = means[i];
-    ring = outside_of(grid(), ring, is_reached);
+    ring = outside_of(whole, ring, is_reached);
   }
   return out;
 }

@@ -36,6 +36,9 @@ class RemeshModel {
     ComponentOptions options;
     options.threads = threads;
     options.cancel = cancel;
+    options.on_progress = [this](const Progress& now) {
+      if (phases.empty() || phases.back() != now.phase) phases.push_back(now.phase);
+    };
     options.on_log = [this](LogLevel, const std::string& line) { log += line + "\n"; };
     component = std::make_unique<Component>(std::move(settings), options);
     component->advertise();
@@ -76,6 +79,7 @@ class RemeshModel {
   std::vector<double> u, v;
   Time start = at("2001-01-01");
   std::string log;
+  std::vector<std::string> phases;  ///< in order, each once where it follows itself
 };
 
 inline constexpr double kStrong =

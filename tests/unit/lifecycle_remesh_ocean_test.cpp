@@ -8,6 +8,7 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/parallel.hpp"
@@ -59,6 +60,20 @@ std::set<std::vector<double>> places_of(const Grid& grid) {
 /// Strong eddies at first, weak ones later.
 void run_days(RemeshModel& model, int begin, int end) {
   for (int day = begin; day < end; ++day) model.run_day(day, day < 12 ? kStrong : 0.02);
+}
+
+/// The model's day, its velocities on a table of the host's.
+void run_day_on_table(RemeshModel& model, int day, double amplitude) {
+  model.u.assign(8, 0.0);
+  model.u.resize(16, day % 2 == 0 ? amplitude : -amplitude);
+  model.v.assign(16, 0.0);
+  for (const auto& [name, values] : {std::pair("surface_eastward_sea_water_velocity", &model.u),
+                                     std::pair("surface_northward_sea_water_velocity", &model.v)}) {
+    const auto field = model.component->imports()->item(name);
+    field->place_on({{0.0, 90.0, 180.0, 270.0}, {-60.0, -20.0, 20.0, 60.0}});
+    field->bind(*values);
+  }
+  model.run_without_values(day);
 }
 
 }  // namespace
@@ -134,6 +149,31 @@ remesh:
   CHECK(model.component->generation() == 2);
 }
 
+TEST_CASE("an ocean's whole grid is made at an alarm only where it is needed") {
+  struct Case {
+    bool on_table, has_eddies;
+    std::int64_t n_duals, n_transfers;  // one of the duals is the new grid's own
+  };
+  const OceanFiles files;
+  for (const Case& one : {Case{true, false, 0, 0}, Case{true, true, 2, 0}, Case{false, false, 1, 0},
+                          Case{false, true, 3, 1}}) {
+    CAPTURE(one.on_table);
+    CAPTURE(one.has_eddies);
+    RemeshModel model(files.settings("  statistics: {window: exponential, length: 4 d}\n"));
+    for (int day = 0; day < 10; ++day) {
+      model.phases.clear();  // but for the alarm's
+      const double amplitude = one.has_eddies ? kStrong : 0.01;
+      one.on_table ? run_day_on_table(model, day, amplitude) : model.run_day(day, amplitude);
+    }
+    CHECK(model.component->remesh_failure().empty());
+    REQUIRE(model.component->decision());
+    CHECK(model.component->generation() == (one.has_eddies ? 2 : 1));
+    const auto& phases = model.phases;
+    CHECK(std::count(phases.begin(), phases.end(), "dual") == one.n_duals);
+    CHECK(std::count(phases.begin(), phases.end(), "transfer") == one.n_transfers);
+  }
+}
+
 TEST_CASE("values of an ocean's cells come to all cells and back") {
   const OceanFiles files;
   const RemeshModel model(files.settings());
@@ -141,7 +181,7 @@ TEST_CASE("values of an ocean's cells come to all cells and back") {
   parallel::Executor exec(2);
   Monitor monitor;
   Context context{exec, monitor};
-  const WholeGrid whole(context, product);
+  WholeGrid whole(context, product);
   REQUIRE(whole.is_culled());
   CHECK(whole.grid().n_cells() == product.mesh.n_vertices());
   const auto n = static_cast<std::size_t>(product.grid->n_cells());
