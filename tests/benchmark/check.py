@@ -21,12 +21,12 @@ COLUMNS = (
     {"case", "threads", "repeats", "surface", "vertices", "digest", "limit_nodes", "start_mib",
      "peak_mib", "refine_vertices_per_s", "mesh_vertices_per_s", "dual_cells_per_s",
      "limit_nodes_per_s", "mesh_bytes_per_vertex", "bytes_per_vertex"}
-    | {f"{phase}{kind}" for phase in page.ALL_PHASES for kind in ("_s", "_cpu_s")}
+    | {f"{phase}{kind}" for phase in page.ALL_PHASES for kind in ("_s", "_cpu_s", "_user_s")}
     | {f"{phase}_peak_mib" for phase in page.MESH + ["dual"]}
     | {column.key for column in page.QUALITY})
 # What a uniform case can't have; the yardstick may be missing, and is run on one thread only.
-EMPTY = {"limit_s", "limit_cpu_s", "limit_nodes", "limit_nodes_per_s"}
-MAYBE_EMPTY = {"cgal_s", "cgal_cpu_s"}
+EMPTY = {"limit_s", "limit_cpu_s", "limit_user_s", "limit_nodes", "limit_nodes_per_s"}
+MAYBE_EMPTY = {"cgal_s", "cgal_cpu_s", "cgal_user_s"}
 failures = 0
 
 
@@ -50,6 +50,9 @@ def check_line(line):
             check(is_empty == (key in EMPTY), f"{name}: {key} is {line[key]}")
         if key.endswith("_s") and not is_empty:
             check(line[key] >= 0, f"{name}: {key} is {line[key]}")
+        if key.endswith("_user_s") and not is_empty:
+            whole = line[key.replace("_user_s", "_cpu_s")]
+            check(line[key] <= whole, f"{name}: {key} is {line[key]}, of {whole}")
     for phase in page.MESH + ["dual", "quality", "write"]:
         check(line[f"{phase}_cpu_s"] > 0 and line[f"{phase}_s"] > 0, f"{name}: {phase} took no time")
     peaks = [line[f"{phase}_peak_mib"] for phase in page.MESH + ["dual"]] + [line["peak_mib"]]
@@ -59,6 +62,20 @@ def check_line(line):
           f"{name}: area-length quality")
     check(line["obtuse"] == 0 and line["repeats"] == 2, f"{name}: obtuse, repeats")
     check(len(line["digest"]) == 64, f"{name}: digest {line['digest']}")
+
+
+KERNEL = "profile"
+
+
+def check_kernels(benchmark, results):
+    """A kernel alone, whose lines the page shows and the comparison knows again."""
+    done = run(benchmark, "--sizing", "--threads", "1,2", KERNEL)
+    lines = [json.loads(line) for line in done.stdout.splitlines()]
+    check(done.returncode == 0, f"--sizing: exit status {done.returncode}: {done.stderr}")
+    check([line.get("sizing") for line in lines if "threads" in line] == [KERNEL] * 2,
+          f"--sizing: lines {done.stdout}")
+    with results.open("a", encoding="utf-8") as file:
+        file.write(done.stdout)
 
 
 def check_output(benchmark, results):
@@ -80,8 +97,12 @@ def check_page(results, folder):
                "--no-picture")
     check(done.returncode == 0, f"page.py: {done.stderr}")
     text = copy.read_text(encoding="utf-8")
+    def body_of(part):
+        return text.split(f"<!-- begin {part} -->")[1].split(f"<!-- end {part} -->")[0]
+
+    check(body_of("kernels").count(f"| {KERNEL} |") == 2, "page: the kernel on 1 and 2 threads")
     for part in ("times", "quality", "memory"):
-        body = text.split(f"<!-- begin {part} -->")[1].split(f"<!-- end {part} -->")[0]
+        body = body_of(part)
         check(CASE in body and "V1" not in body, f"page: part {part} is made of the lines given")
     check("at check" in text, "page: the label stands in it")
 
@@ -91,6 +112,7 @@ def check_comparison(results):
     check(done.returncode == 0, f"compare.py: {done.stderr}")
     rows = [row.split() for row in done.stdout.splitlines()[1:]]
     check({row[2] for row in rows} >= set(page.MESH), "compare.py: a row for each phase")
+    check(any(row[:2] == ["sizing", KERNEL] for row in rows), "compare.py: a row for the kernel")
     check(all("1.000" in row for row in rows), "compare.py: equal runs have ratios of 1")
 
 
@@ -110,6 +132,7 @@ def main():
         folder = pathlib.Path(name)
         results = folder / "lines.jsonl"
         check_output(benchmark, results)
+        check_kernels(benchmark, results)
         check_page(results, folder)
         check_comparison(results)
     check_errors(benchmark)

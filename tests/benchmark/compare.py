@@ -18,10 +18,10 @@ KERNEL = "alone"  # the phase of a kernel of the sizing layer, which has no othe
 
 
 def best(path):
-    """{(case, threads): line with the least of each time}"""
+    """{(case or kernel, threads): line with the least of each time}"""
     cases = {}
-    for row in page.read_lines(path) + page.read_kernels(path):
-        key = (row["case"], row["threads"])
+    for row in page.read_lines(path) + page.read_lines(path, "sizing"):
+        key = (row["case"] if "case" in row else f"sizing {row['sizing']}", row["threads"])
         line = cases.setdefault(key, dict(row))
         for name, value in row.items():
             is_time = name.endswith("_s") and not name.endswith("_per_s") or name == "seconds"

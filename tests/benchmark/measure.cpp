@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark/measure.hpp"
 
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -8,6 +10,7 @@
 #include <fstream>
 #include <map>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "benchmark/yardstick.hpp"
@@ -49,6 +52,35 @@ double process_mib(const std::string& key) {
   }
   return 0.0;
 }
+
+/// Seconds that the kernel has worked for this process so far.
+double system_s() {
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  return static_cast<double>(usage.ru_stime.tv_sec) +
+         1e-6 * static_cast<double>(usage.ru_stime.tv_usec);
+}
+
+/// Below this the kernel's share is not told apart: it counts by ticks of some milliseconds.
+constexpr double kShortestSplitS = 0.1;
+
+/// What the kernel did during each phase: mostly giving memory when it is first touched. Heard from
+/// the progress, which tells begin and end of every phase.
+class SystemTimes {
+ public:
+  void note(const std::string& phase) {
+    const double now_s = system_s();
+    const auto [found, is_new] = begin_and_end_s_.try_emplace(phase, now_s, now_s);
+    if (!is_new) found->second.second = now_s;
+  }
+  double seconds(const std::string& phase) const {
+    const auto& [begin_s, end_s] = begin_and_end_s_.at(phase);
+    return end_s - begin_s;
+  }
+
+ private:
+  std::map<std::string, std::pair<double, double>> begin_and_end_s_;
+};
 
 std::string first_value(const char* path, const std::string& key) {
   std::ifstream file(path);
@@ -105,15 +137,18 @@ void time_building(Context& context, const Mesh& mesh) {
   if (context.exec.n_threads() == 1) run_yardstick(context.monitor, points);
 }
 
-void add_times(const Monitor& monitor, Json& line) {
+void add_times(const Monitor& monitor, const SystemTimes& system_times, Json& line) {
   for (const char* name : kPhases) {
     const std::string key = name;
     line[key + "_s"] = nullptr;
     line[key + "_cpu_s"] = nullptr;
+    line[key + "_user_s"] = nullptr;
     for (const PhaseTime& phase : monitor.phases()) {
       if (phase.phase != name) continue;
       line[key + "_s"] = rounded(phase.wall_s);
       line[key + "_cpu_s"] = rounded(phase.cpu_s);
+      const double kernel_s = phase.cpu_s < kShortestSplitS ? 0.0 : system_times.seconds(key);
+      line[key + "_user_s"] = rounded(std::max(phase.cpu_s - kernel_s, 0.0));
       if (key == "limit") line["limit_nodes"] = phase.items;
     }
   }
@@ -125,11 +160,12 @@ bool ends_with(const std::string& text, const std::string& ending) {
          text.compare(text.size() - ending.size(), ending.size(), ending) == 0;
 }
 
-/// `count` a second of the phases together; null when one of them was not measured.
+/// `count` a second of the phases together, of the program's own seconds on one thread and of wall
+/// time on more; null when one of them was not measured.
 Json rate(const Json& line, double count, const std::vector<std::string>& phases) {
   double seconds = 0.0;
   for (const std::string& phase : phases) {
-    const Json& time = line.at(phase + (line.at("threads") == 1 ? "_cpu_s" : "_s"));
+    const Json& time = line.at(phase + (line.at("threads") == 1 ? "_user_s" : "_s"));
     if (time.is_null()) return nullptr;
     seconds += time.get<double>();
   }
@@ -155,8 +191,12 @@ Json measure(const Case& benchmark_case, int threads, const std::string& folder)
     return whole_mib;
   };
   parallel::Executor exec(threads);
-  Monitor monitor([&](const Progress& progress) { peak_mib[progress.phase] = note_peak(); }, {},
-                  nullptr);
+  SystemTimes system_times;
+  const auto note = [&](const Progress& progress) {
+    peak_mib[progress.phase] = note_peak();
+    system_times.note(progress.phase);
+  };
+  Monitor monitor(note, {}, nullptr);
   Context context{exec, monitor};
   const Product product = generate(context, settings, {true, folder});
   if (benchmark_case.writes_files) {
@@ -174,7 +214,7 @@ Json measure(const Case& benchmark_case, int threads, const std::string& folder)
   line["repeats"] = 1;
   line["surface"] = settings.shape;
   line["vertices"] = product.mesh.n_vertices();
-  add_times(monitor, line);
+  add_times(monitor, system_times, line);
   line["start_mib"] = rounded(start_mib);
   for (const char* phase : kPeaks)
     line[std::string(phase) + "_peak_mib"] = rounded(peak_mib[phase]);
@@ -188,9 +228,18 @@ void join(const Json& other, Json& line) {
   DELOS_CHECK(other.at("digest") == line.at("digest"), ErrorKind::internal,
               line.at("case").get<std::string>(), ": two runs on ", line.at("threads").get<int>(),
               " threads made different grids");
+  for (const char* phase : kPhases) {
+    const std::string key = std::string(phase) + "_cpu_s";
+    if (line.at(key).is_null() || other.at(key).is_null() || line.at(key) <= other.at(key))
+      continue;
+    // The program's own seconds belong to the whole of the same run.
+    for (const char* part : {"_cpu_s", "_user_s"})
+      line[phase + std::string(part)] = other.at(phase + std::string(part));
+  }
   for (auto& [key, value] : line.items()) {
     const Json& second = other.at(key);
     if (!value.is_number_float() || !second.is_number_float()) continue;
+    if (ends_with(key, "_cpu_s") || ends_with(key, "_user_s")) continue;
     if (ends_with(key, "_s")) value = std::min(value.get<double>(), second.get<double>());
     if (ends_with(key, "_mib")) value = std::max(value.get<double>(), second.get<double>());
   }

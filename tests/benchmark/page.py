@@ -21,6 +21,7 @@ PAGE = HERE.parents[1] / "component" / "PERFORMANCE.md"
 PHASES = ["read", "spacing", "refine", "relax", "polish", "quality", "dual", "digest", "write"]
 BESIDE = ["limit", "delaunay", "cgal"]  # measured beside the run
 ALL_PHASES = PHASES + BESIDE
+ALONE = ["sizing", "remesh", "remap"]  # by options of their own, without a grid's phases
 MESH = ["refine", "relax", "polish"]  # what makes a triangulation of a spacing
 THREADED = ["refine", "relax", "polish", "limit", "dual"]
 
@@ -98,7 +99,7 @@ JIGSAW_BEST = [
 ]
 
 # Goals, and the sizes from which a case counts for them: below, fixed costs and noise are all.
-REFINE_GOAL_PER_S, REFINE_GOAL_ELLIPSOID_PER_S = 1.5e6, 1.0e6
+REFINE_GOAL_PER_S, REFINE_GOAL_ELLIPSOID_PER_S, DUAL_GOAL_PER_S = 1.5e6, 1.0e6, 0.7e6
 TIME_GOAL = 50  # JIGSAW's total over refine + relax + polish
 SPEEDUP_GOALS = {2: 1.8, 16: 10.0}
 GROWTH_GOAL = 0.15
@@ -117,25 +118,18 @@ def read_objects(path):
         return [json.loads(line) for line in lines if line.strip()]
 
 
-def is_kernel(line):
-    return line.get("case", "").startswith("sizing_")
-
-
-def read_lines(path):
-    """The lines on cases that make grids."""
-    return [line for line in read_objects(path) if "case" in line and not is_kernel(line)]
-
-
-def read_kernels(path):
-    """The lines on kernels of the sizing layer alone."""
-    return [line for line in read_objects(path) if is_kernel(line)]
+def read_lines(path, kind="case"):
+    """The lines of one kind: on cases that make grids, or what the benchmark measures alone: kernels
+    of the sizing layer, remeshes, weights between grids."""
+    return [line for line in read_objects(path) if kind in line]
 
 
 class Results:
     def __init__(self, path):
         self.machines = [line["machine"] for line in read_objects(path) if "machine" in line]
         self.lines = {(line["case"], line["threads"]): line for line in read_lines(path)}
-        self.kernels = {(line["case"], line["threads"]): line for line in read_kernels(path)}
+        self.alone = {kind: {(line[kind], line["threads"]): line
+                             for line in read_lines(path, kind)} for kind in ALONE}
         if not self.lines:
             sys.exit(f"{path}: no line on a case")
 
@@ -149,15 +143,20 @@ class Results:
         return sorted({threads for _, threads in self.lines})
 
 
-def cpu_s(line, phases):
-    """Processor seconds of the phases together, None when one was not measured."""
-    times = [line[f"{phase}_cpu_s"] for phase in phases]
+def user_s(line, phases):
+    """The program's own processor seconds of the phases together, None when one was not measured."""
+    times = [line[f"{phase}_user_s"] for phase in phases]
     return None if None in times else sum(times)
 
 
+def system_s(line, phases):
+    """The kernel's processor seconds of the phases that were measured."""
+    return sum((line[f"{phase}_cpu_s"] or 0) - (line[f"{phase}_user_s"] or 0) for phase in phases)
+
+
 def speedup(results, case, phase, threads):
-    """Processor seconds on one thread (the wall time of an idle machine) over wall seconds on
-    several; None for a phase that was not measured or is too short to tell."""
+    """Processor seconds on one thread, the kernel's too (the wall time of an idle machine), over
+    wall seconds on several; None for a phase that was not measured or is too short to tell."""
     one, many = results.find(case), results.find(case, threads)
     if not one or not many or (one[f"{phase}_cpu_s"] or 0) < SPEEDUP_FROM_S:
         return None
@@ -173,11 +172,11 @@ def mean_speedup(results, phase, threads):
 
 
 def growth(results, series, phase):
-    """[(vertices, processor microseconds a vertex)] of one series of cases."""
+    """[(vertices, the program's own microseconds a vertex)] of one series of cases."""
     points = []
     for case in SERIES[series]:
         line = results.find(case)
-        seconds = cpu_s(line, MESH if phase == "mesh" else [phase]) if line else None
+        seconds = user_s(line, MESH if phase == "mesh" else [phase]) if line else None
         if seconds and line["vertices"] >= GROWTH_FROM:
             points.append((line["vertices"], 1e6 * seconds / line["vertices"]))
     return points
@@ -231,14 +230,15 @@ def machine_part(results):
 def times_part(results):
     rows = []
     for line in results.one_core():
-        mesh = cpu_s(line, MESH)
+        mesh = user_s(line, MESH)
         rows.append([line["case"], count(line["vertices"])]
-                    + [seconds(line[f"{phase}_cpu_s"]) for phase in PHASES]
-                    + [digits(line["refine_vertices_per_s"] / 1e6),
+                    + [seconds(line[f"{phase}_user_s"]) for phase in PHASES]
+                    + [seconds(system_s(line, MESH)), seconds(system_s(line, ["dual"])),
+                       digits(line["refine_vertices_per_s"] / 1e6),
                        digits(line["vertices"] / mesh / 1e6),
                        digits(line["dual_cells_per_s"] / 1e6)])
     return table(["case", "vertices"] + PHASES
-                 + ["refine M/s", "refine + relax + polish M/s", "dual M/s"], rows)
+                 + ["system: mesh", "system: dual", "refine M/s", "refine + relax + polish M/s", "dual M/s"], rows)
 
 
 def jigsaw_part(results):
@@ -247,7 +247,7 @@ def jigsaw_part(results):
         line = results.find(peer.case)
         if not line:
             continue
-        refine, mesh = cpu_s(line, ["refine"]), cpu_s(line, MESH)
+        refine, mesh = user_s(line, ["refine"]), user_s(line, MESH)
         rows.append([peer.case, digits(peer.refine_s, 2), seconds(refine),
                      digits(peer.refine_s / refine), digits(peer.total_s), seconds(mesh),
                      digits(peer.total_s / mesh), peer.bytes_per_vertex,
@@ -313,7 +313,7 @@ def growth_part(results):
             line = results.find(case)
             if not line:
                 continue
-            times = [cpu_s(line, MESH if phase == "mesh" else [phase]) for phase in phases]
+            times = [user_s(line, MESH if phase == "mesh" else [phase]) for phase in phases]
             rows.append([case, count(line["vertices"])]
                         + [digits(t and 1e6 * t / line["vertices"]) for t in times])
         points = [growth(results, series, phase) for phase in phases]
@@ -326,7 +326,7 @@ def growth_part(results):
 def building_part(results):
     rows = []
     for line in results.one_core():
-        ours, theirs = line["delaunay_cpu_s"], line["cgal_cpu_s"]
+        ours, theirs = line["delaunay_user_s"], line["cgal_user_s"]
         if ours:
             n = line["vertices"]
             rows.append([line["case"], count(n), digits(n / ours / 1e6),
@@ -336,8 +336,8 @@ def building_part(results):
 
 
 def sizing_part(results):
-    rows = [[line["case"], count(line["limit_nodes"]), seconds(line["spacing_cpu_s"]),
-             seconds(line["limit_cpu_s"]), digits((line["limit_nodes_per_s"] or 0) / 1e6)]
+    rows = [[line["case"], count(line["limit_nodes"]), seconds(line["spacing_user_s"]),
+             seconds(line["limit_user_s"]), digits((line["limit_nodes_per_s"] or 0) / 1e6)]
             for line in results.one_core() if line["limit_nodes"]]
     return table(["case", "nodes of the table", "spacing s", "of it the gradient limit",
                   "limit M nodes/s"], rows) if rows else "Not measured."
@@ -345,13 +345,32 @@ def sizing_part(results):
 
 def kernels_part(results):
     rows = []
-    for (name, threads), line in results.kernels.items():
-        one = results.kernels.get((name, 1))
+    kernels = results.alone["sizing"]
+    for (name, threads), line in kernels.items():
+        one = kernels.get((name, 1))
         gain = one and threads > 1 and one["seconds"] / line["seconds"]
-        rows.append([name.removeprefix("sizing_"), threads, seconds(line["seconds"]),
-                     digits(line["nodes_per_s"] / 1e6), f"{gain:.2f}" if gain else None])
+        rows.append([name, threads, seconds(line["seconds"]), digits(line["nodes_per_s"] / 1e6),
+                     f"{gain:.2f}" if gain else None])
     return table(["kernel", "threads", "wall s", "M nodes/s", "times as fast"], rows) if rows \
         else "Not measured."
+
+
+def remesh_part(results):
+    rows = [[name, count(line["before"]), count(line["after"]),
+             f"{100 * max(line['removed'], line['inserted']) / line['before']:.1f}",
+             seconds(line["fresh_s"]), seconds(line["remesh_s"]), f"{100 * line['share']:.1f}"]
+            for (name, threads), line in results.alone["remesh"].items() if threads == 1]
+    return table(["remesh", "vertices before", "after", "% made anew", "fresh mesh s", "remesh s",
+                  "% of fresh"], rows) if rows else "Not measured."
+
+
+def remap_part(results):
+    rows = [[name, threads, count(line["sources"]), count(line["targets"]),
+             count(line["overlaps"]), digits(line["first_overlaps_per_s"] / 1e6),
+             digits(line["second_overlaps_per_s"] / 1e6)]
+            for (name, threads), line in results.alone["remap"].items()]
+    return table(["remap", "threads", "cells from", "to", "overlaps", "M overlaps/s, first order",
+                  "second"], rows) if rows else "Not measured."
 
 
 # ------------------------------------------------------------------ goals
@@ -371,13 +390,19 @@ def rate_goals(results):
             rate, case = min(rates)
             yield verdict(f"refine, one core, every case of the {name}: {goal / 1e6:g} M vertices/s",
                           f"least {digits(rate / 1e6)} ({case})", rate >= goal)
+    rates = [(line["dual_cells_per_s"], line["case"]) for line in results.one_core()
+             if line["vertices"] >= RATE_FROM]
+    if rates:
+        rate, case = min(rates)
+        yield verdict(f"dual with all tables and weights, one core: {DUAL_GOAL_PER_S / 1e6:g} M "
+                      "cells/s", f"least {digits(rate / 1e6)} ({case})", rate >= DUAL_GOAL_PER_S)
 
 
 def jigsaw_goals(results):
     pairs = [(peer, results.find(peer.case)) for peer in JIGSAW if results.find(peer.case)]
     if not pairs:
         return
-    ratio, case = min((peer.total_s / cpu_s(line, MESH), peer.case) for peer, line in pairs)
+    ratio, case = min((peer.total_s / user_s(line, MESH), peer.case) for peer, line in pairs)
     yield verdict(f"refine + relax + polish, one core: 1/{TIME_GOAL} of JIGSAW's time",
                   f"at least 1/{ratio:.0f} ({case})", ratio >= TIME_GOAL)
     best = [(peer, results.find(peer.case)) for peer in JIGSAW_BEST if results.find(peer.case)]
@@ -437,7 +462,7 @@ def goals_part(results):
 
 PARTS = {"machine": machine_part, "goals": goals_part, "times": times_part,
          "jigsaw": jigsaw_part, "quality": quality_part, "sizing": sizing_part,
-         "kernels": kernels_part,
+         "kernels": kernels_part, "remesh": remesh_part, "remap": remap_part,
          "threads": threads_part, "growth": growth_part, "memory": memory_part,
          "building": building_part}
 
@@ -476,7 +501,7 @@ def draw_growth(axes, results):
                 axes.fill_between(n, [(1 - GROWTH_GOAL) * middle * x for x in n],
                                   [(1 + GROWTH_GOAL) * middle * x for x in n],
                                   color=COLOURS[phase], alpha=0.2, linewidth=0)
-    axes.set(xlabel="vertices", ylabel="processor seconds, one thread",
+    axes.set(xlabel="vertices", ylabel="the program's processor seconds, one thread",
              title="growth; bands: ± 15 % about proportional")
     for series, (marker, style) in STYLES.items():
         axes.plot([], [], marker + style, color="grey", markersize=4, linewidth=1, label=series)

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: BSD-3-Clause
 # Builds the benchmark (preset release) and measures every case; page.py makes the page of it.
-#   run.sh [RESULTS]           all: some 10 minutes on a quiet machine with two cores and 16 GiB
+#   run.sh [RESULTS]           all: some 20 minutes on a quiet machine with two cores and 16 GiB
 #   run.sh --quick [RESULTS]   three small cases, in seconds
 # RESULTS: tests/benchmark/results.jsonl when left out.
 set -euo pipefail
@@ -35,6 +35,9 @@ everything() {
   measure --repeat 3 U240 U120 U60 E60 T60 V1 Rossby EKE Slope
   measure --repeat 2 U30 E30 T30 V1fine
   measure U15
+  measure --sizing --repeat 5
+  measure --remesh --threads 1 --repeat 2
+  measure --remap --repeat 4
   measure --threads 1 --repeat 3 G100k G300k G1M
   measure --threads 1 --repeat 2 G3M G10M U7.5
 }
