@@ -48,6 +48,17 @@ std::optional<fs::path> first_existing(const std::vector<fs::path>& candidates) 
   return *found;
 }
 
+/// "./h.nc is a folder. " when that is why it was passed over.
+std::string passed_over(const std::vector<fs::path>& candidates) {
+  for (const fs::path& path : candidates) {
+    std::error_code error;
+    const fs::file_status status = fs::status(path, error);
+    if (!fs::exists(status)) continue;
+    return text(path.string(), fs::is_directory(status) ? " is a folder. " : " is no plain file. ");
+  }
+  return "";
+}
+
 std::string package_hint(const std::string& name) {
   const std::string file = fs::path(name).filename().string();
   for (const PackagedFile& packaged : kPackagedFiles) {
@@ -70,7 +81,7 @@ std::string find_data_file(const std::string& name, const std::string& folder,
   looked.reserve(candidates.size());
   for (const fs::path& path : candidates) looked.push_back(path.string());
   throw Error(ErrorKind::input, text(name, ": no such file. Looked for: ", join_names(looked), ". ",
-                                     package_hint(name)));
+                                     passed_over(candidates), package_hint(name)));
 }
 
 bool has_data_file(const std::string& name, const std::string& folder,

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -20,8 +21,37 @@ using Json = nlohmann::json;
 
 /// Latitudes and longitudes beyond their range by less than this are rounding.
 constexpr double kTolerance_deg = 1e-6;
+/// Brackets within each other: RFC 7946 needs about twenty, and the library takes each apart by a
+/// call within a call.
+constexpr int kMaxDepth = 100;
 /// GeometryCollections within each other: RFC 7946 advises against any; deeper is damage.
 constexpr int kMaxNesting = 8;
+
+bool is_too_deep(const std::string& text) {
+  int depth = 0;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+    } else if (c == '"') {
+      in_string = true;
+    } else if (c == '[' || c == '{') {
+      if (++depth > kMaxDepth) return true;
+    } else if (c == ']' || c == '}') {
+      --depth;
+    }
+  }
+  return false;
+}
+
+/// As it stands in the file, its beginning when that is long.
+std::string shown(const Json& json) {
+  constexpr std::size_t kLongest = 80;
+  const std::string all = json.dump();
+  return all.size() <= kLongest ? all : all.substr(0, kLongest) + " ...";
+}
 
 Json parse_file(const std::string& path) {
   std::error_code error;
@@ -30,8 +60,11 @@ Json parse_file(const std::string& path) {
   std::ifstream in(path, std::ios::binary);
   DELOS_CHECK(in.good() && !std::filesystem::is_directory(path, error), ErrorKind::input, path,
               ": can't be opened for reading. Check that it is a file and its permissions.");
+  const std::string content{std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+  DELOS_CHECK(!is_too_deep(content), ErrorKind::input, path, ": its brackets are nested more than ",
+              kMaxDepth, " deep, which is no GeoJSON. Repair it.");
   try {
-    return Json::parse(in);
+    return Json::parse(content);
   } catch (const Json::exception& e) {
     throw Error(ErrorKind::input,
                 text(path, ": is not valid JSON: ", e.what(), ". Give a GeoJSON file here."));
@@ -96,7 +129,7 @@ void close_around_pole(PolygonRing& ring, double turn_deg) {
 std::array<double, 2> read_position(const Json& position, const std::string& where) {
   DELOS_CHECK(position.is_array() && position.size() >= 2 && position[0].is_number() &&
                   position[1].is_number(),
-              ErrorKind::input, where, ": ", position.dump(),
+              ErrorKind::input, where, ": ", shown(position),
               " is not a position. It must be [longitude, latitude] in degrees.");
   const double lon = position[0];
   const double lat = position[1];

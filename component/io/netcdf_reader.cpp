@@ -210,7 +210,7 @@ const Variable& Reader::variable(const std::string& name) const {
   throw Error(ErrorKind::input,
               text(path_, ": no variable '", name, "'. ",
                    nearest.empty() ? "" : "Did you mean '" + nearest + "'? ",
-                   fields.empty() ? "It has no variable of two or more dimensions."
+                   fields.empty() ? "It has no variable of two or more dimensions"
                                   : "Variables of two or more dimensions: " + join_names(fields),
                    "."));
 }

@@ -75,6 +75,16 @@ bool is_curvilinear(const netcdf::Reader& file, const netcdf::Variable& variable
   });
 }
 
+/// The first that says so; empty: none.
+std::string coordinate_in_radians(const netcdf::Reader& file, const std::vector<RasterAxis>& axes) {
+  for (const RasterAxis& axis : axes) {
+    if (axis.coordinate.empty()) continue;
+    const std::string units = file.text_attribute(axis.coordinate, "units").value_or("");
+    if (units.compare(0, 3, "rad") == 0) return axis.coordinate;
+  }
+  return "";
+}
+
 std::size_t lat_lon_axis(const netcdf::Reader& file, const netcdf::Variable& variable,
                          const std::vector<RasterAxis>& axes, AxisKind kind,
                          const std::string& where) {
@@ -87,18 +97,34 @@ std::size_t lat_lon_axis(const netcdf::Reader& file, const netcdf::Variable& var
   DELOS_CHECK(!is_curvilinear(file, variable), ErrorKind::input, where,
               ": its coordinates are two-dimensional (a curvilinear grid). Interpolate it to a ",
               "regular grid first, e.g. with `cdo remapbil,r720x360`.");
+  const std::string in_radians = coordinate_in_radians(file, axes);
+  DELOS_CHECK(in_radians.empty(), ErrorKind::input, where, ": its coordinate '", in_radians,
+              "' is in radians. Convert it to degrees, with units degrees_north or degrees_east.");
   throw Error(ErrorKind::input,
               text(where, ": none of its dimensions is a ", name, ": ", variable.shape_text(),
                    ". Give each dimension a coordinate variable with units degrees_north or ",
                    "degrees_east."));
 }
 
+/// Latitudes and longitudes of the whole globe in radians, whatever their units say.
+void check_degrees(const Field& field) {
+  constexpr double kLeastLat = 1.4, kMostLat = 1.571, kLeastTurn = 5.5, kMostTurn = 6.284;
+  const std::vector<double>&lat = field.rows.values_deg, &lon = field.columns.values_deg;
+  const double south = -lat.front(), north = lat.back(), turn = lon.back() - lon.front();
+  const bool is_radians = south > kLeastLat && south < kMostLat && north > kLeastLat &&
+                          north < kMostLat && turn > kLeastTurn && turn < kMostTurn;
+  DELOS_CHECK(!is_radians, ErrorKind::input, field.where, ": latitudes from ", -south, " to ",
+              north, " and ", turn, " of longitude look like radians. Convert them to degrees.");
+}
+
 Field open_field(const netcdf::Reader& file, const RasterRequest& request) {
   const netcdf::Variable& variable =
       request.variable.empty() ? only_field(file) : file.variable(request.variable);
   const std::string where = file.path() + ": variable '" + variable.name + "'";
-  DELOS_CHECK(is_numeric(variable), ErrorKind::input, where, ": it holds ",
-              netcdf::to_string(variable.type), " where numbers are needed. Name a numeric field.");
+  DELOS_CHECK(
+      is_numeric(variable), ErrorKind::input, where, ": it holds ",
+      variable.type == netcdf::Type::text ? "text" : "strings or values of a type of its own",
+      " where numbers are needed. Name a numeric field.");
   Field field{file, variable, identify_axes(file, variable), 0, 0, where, {}, {}, {}};
   field.lat = lat_lon_axis(file, variable, field.axes, AxisKind::latitude, where);
   field.lon = lat_lon_axis(file, variable, field.axes, AxisKind::longitude, where);
@@ -112,6 +138,7 @@ Field open_field(const netcdf::Reader& file, const RasterRequest& request) {
   };
   field.rows = order_latitudes(coordinates(field.lat), where);
   field.columns = order_longitudes(coordinates(field.lon), where);
+  check_degrees(field);
   field.unpacking = read_unpacking(file, variable);
   field.unpacking.units =
       file_unit_conversion(file, variable.name, request.file_units, request.units);

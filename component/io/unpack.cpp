@@ -47,16 +47,30 @@ double in_stored_type(Type type, double value) {
   return type == Type::float32 ? static_cast<double>(static_cast<float>(value)) : value;
 }
 
-std::optional<double> first_number(const netcdf::Reader& file, const std::string& variable,
-                                   const char* name) {
-  const auto numbers = file.number_attribute(variable, name);
-  if (!numbers || numbers->empty()) return std::nullopt;
-  return numbers->front();
+/// The numbers of an attribute, `n` of them (0: any number). One that is text would otherwise go
+/// unnoticed, and the values be taken as they are stored.
+std::optional<std::vector<double>> numbers_of(const netcdf::Reader& file,
+                                              const std::string& variable, const char* name,
+                                              std::size_t n) {
+  auto numbers = file.number_attribute(variable, name);
+  if (!numbers && file.text_attribute(variable, name).value_or("").empty()) return std::nullopt;
+  DELOS_CHECK(numbers, ErrorKind::input, file.path(), ": variable '", variable, "': ", name,
+              " is text where numbers are needed. Repair the attribute, e.g. with `ncatted`.");
+  DELOS_CHECK(n == 0 || numbers->size() == n, ErrorKind::input, file.path(), ": variable '",
+              variable, "': ", name, " has ", numbers->size(), " values where ", n,
+              n == 1 ? " is" : " are", " needed. Repair the attribute, e.g. with `ncatted`.");
+  return numbers;
+}
+
+std::optional<double> one_number(const netcdf::Reader& file, const std::string& variable,
+                                 const char* name) {
+  const auto numbers = numbers_of(file, variable, name, 1);
+  return numbers ? std::optional(numbers->front()) : std::nullopt;
 }
 
 double finite_factor(const netcdf::Reader& file, const std::string& variable, const char* name,
                      double otherwise) {
-  const double value = first_number(file, variable, name).value_or(otherwise);
+  const double value = one_number(file, variable, name).value_or(otherwise);
   DELOS_CHECK(std::isfinite(value), ErrorKind::input, file.path(), ": variable '", variable,
               "': ", name, " = ", value, ": must be finite. Repair the attribute.");
   return value;
@@ -78,13 +92,13 @@ void set_limits(const netcdf::Reader& file, const netcdf::Variable& variable,
     min = std::max(min, low);
     max = std::min(max, high);
   };
-  const auto range = file.number_attribute(variable.name, "valid_range");
+  const auto range = numbers_of(file, variable.name, "valid_range", 2);
   const auto stored = [&](double value) { return in_stored_type(variable.type, value); };
-  if (range && range->size() == 2) set("valid_range", stored((*range)[0]), stored((*range)[1]));
-  if (const auto low = first_number(file, variable.name, "valid_min")) {
+  if (range) set("valid_range", stored((*range)[0]), stored((*range)[1]));
+  if (const auto low = one_number(file, variable.name, "valid_min")) {
     set("valid_min", stored(*low), kInfinity);
   }
-  if (const auto high = first_number(file, variable.name, "valid_max")) {
+  if (const auto high = one_number(file, variable.name, "valid_max")) {
     set("valid_max", -kInfinity, stored(*high));
   }
 }
@@ -117,13 +131,13 @@ std::size_t unpack_some(const Unpacking& u, const std::vector<double>& missing,
 
 Unpacking read_unpacking(const netcdf::Reader& file, const netcdf::Variable& variable) {
   Unpacking unpacking{{}, -kInfinity, kInfinity, -kInfinity, kInfinity, 1.0, 0.0, 0.0, {}};
-  const auto fill = file.number_attribute(variable.name, "_FillValue");
+  const auto fill = numbers_of(file, variable.name, "_FillValue", 0);
   if (!fill) {
     if (const auto value = default_fill(variable.type)) {
       unpacking.missing.push_back(in_stored_type(variable.type, *value));
     }
   }
-  for (const auto& numbers : {fill, file.number_attribute(variable.name, "missing_value")}) {
+  for (const auto& numbers : {fill, numbers_of(file, variable.name, "missing_value", 0)}) {
     if (!numbers) continue;
     for (const double value : *numbers) {
       unpacking.missing.push_back(in_stored_type(variable.type, value));

@@ -29,6 +29,9 @@ namespace {
 
 void check_cost(Context& context, const Settings& settings, double n_cells,
                 const GenerateScope& scope) {
+  DELOS_CHECK(std::isfinite(n_cells), ErrorKind::input, "the spacing is so large or small that ",
+              "its cells can't be counted (", n_cells, "). Check the units of `sizing` and ",
+              "`surface`.");
   // A unit that is off by a thousand, say: nothing but the seeds would come out.
   DELOS_CHECK(n_cells >= 1.0 || settings.generator != Generator::frontal, ErrorKind::input,
               "the spacing asks for ", n_cells, " cells on a body of radius ",

@@ -53,6 +53,12 @@ void read_surface(MapReader keys, Settings& out) {
     }
     out.surface = Ellipsoid(radii_m, centre_m);
   }
+  // Positions are sums with the centre, which keep ten digits of the radius so.
+  constexpr double kMaxOffset = 1e6;
+  if (centre_m.cwiseAbs().maxCoeff() > kMaxOffset * out.surface.scale_m()) {
+    keys.fail("centre", "lies more than ", kMaxOffset, " radii off: positions would lose their ",
+              "digits. Check the units.");
+  }
   out.latitude =
       kLatitudes[keys.choice("latitude", {"geodetic", "geocentric", "parametric"}, "geodetic")];
 }
@@ -112,7 +118,8 @@ RefineOptions read_refine(MapReader keys) {
   };
   // Below 1 (30 degrees) refinement is not known to end; see the refine layer.
   out.radius_edge = number("radius_edge", Bounds::between(1.0, 10.0), out.radius_edge);
-  out.size_ratio = number("size_ratio", Bounds::between(1.0, 4.0), out.size_ratio);
+  out.size_ratio =
+      number("size_ratio", {.low = 1.0, .high = 4.0, .low_is_open = true}, out.size_ratio);
   out.tile_vertices = number("tile_vertices", Bounds::between(500.0, 1e7), out.tile_vertices);
   return out;
 }
@@ -122,7 +129,8 @@ LineFeature read_shape(MapReader keys) {
                                           LineFeature::Kind::ring};
   LineFeature out;
   out.kind = kKinds[keys.choice("type", {"points", "line", "ring"})];
-  out.name = text(keys.locate("points"), " (", keys.string("name", ""), ")");
+  const std::string name = keys.string("name", "");
+  out.name = keys.locate("points") + (name.empty() ? "" : " (" + name + ")");
   constexpr std::size_t kMaxNumbers = 2'000'000;
   const std::size_t least = 2 * (static_cast<std::size_t>(out.kind) + 1);
   const std::vector<double> degrees = keys.quantities(
@@ -208,13 +216,25 @@ PartitionWishes read_partitions(MapReader& keys) {
   return out;
 }
 
+/// Endings such as ".ugrid_triangles.nc" follow, and a part of a name may have 255 bytes.
+void check_file_name(const MapReader& keys, const std::string& name) {
+  constexpr std::size_t kMaxBytes = 200;
+  const bool has_control = std::any_of(name.begin(), name.end(), [](unsigned char c) {
+    return c < 0x20 || c == 0x7f;  // line ends, bells
+  });
+  if (name.empty() || has_control || name.find('/') != std::string::npos) {
+    keys.fail("name", "'", name, "' is no file name; the folder goes to `directory`.");
+  }
+  if (name.size() > kMaxBytes) {
+    keys.fail("name", "has ", name.size(), " bytes; files' names take at most ", kMaxBytes, ".");
+  }
+}
+
 OutputSettings read_output(MapReader keys) {
   OutputSettings out;
   out.directory = keys.string("directory", "out");
   out.name = keys.string("name", "grid");
-  if (out.name.empty() || out.name.find('/') != std::string::npos) {
-    keys.fail("name", "'", out.name, "' is no file name; the folder goes to `directory`.");
-  }
+  check_file_name(keys, out.name);
   const auto formats = keys.strings(
       "formats",
       {"mpas", "ugrid_triangles", "ugrid_cells", "scrip", "esmf", "vtu", "gmsh", "jigsaw", "fesom"},

@@ -11,7 +11,7 @@ namespace {
 
 FileRequest file_of(MapReader& keys) {
   FileRequest request;
-  request.file = keys.string("file");
+  request.file = keys.string("file", nullptr, "land.geojson");
   request.where = keys.locate("file");
   return request;
 }

@@ -45,13 +45,17 @@ std::string bound_text(const Bounds& bounds, Dimension dimension) {
   const std::string_view unit = kUnits[static_cast<std::size_t>(dimension)];
   const bool has_high = bounds.high < std::numeric_limits<double>::infinity();
   if (!has_high) return text("must be ", bounds.low_is_open ? "> " : ">= ", bounds.low, unit);
+  if (bounds.low_is_open) {
+    return text("must be above ", bounds.low, " and at most ", bounds.high, unit);
+  }
   return text("must be between ", bounds.low, " and ", bounds.high, unit);
 }
 
 }  // namespace
 
-MapReader::MapReader(const ConfigNode& node, std::string path, ConfigNode& effective, Keys keys)
-    : node_(&node), path_(std::move(path)), effective_(&effective) {
+MapReader::MapReader(const ConfigNode& node, std::string path, ConfigNode& effective, Keys keys,
+                     std::string where)
+    : node_(&node), path_(std::move(path)), where_(std::move(where)), effective_(&effective) {
   DELOS_CHECK(node.kind == ConfigNode::Kind::map || node.kind == ConfigNode::Kind::empty,
               ErrorKind::config, node.where, " ", path_, ": a map of keys is needed here (",
               listed(keys), "), not ", kind_name(node), ".");
@@ -73,7 +77,7 @@ std::string MapReader::path_of(std::string_view key) const {
 
 std::string MapReader::locate(std::string_view key) const {
   const ConfigNode* const child = node_->find(key);
-  const std::string& where = child != nullptr ? child->where : node_->where;
+  const std::string& where = child != nullptr ? child->where : where_;
   return where.empty() ? path_of(key) : text(where, " ", path_of(key));
 }
 
@@ -137,9 +141,12 @@ bool MapReader::boolean(const std::string& key, bool fallback) {
   return value == "true";
 }
 
-std::string MapReader::string(const std::string& key, const char* fallback) {
+std::string MapReader::string(const std::string& key, const char* fallback, const char* example) {
   const std::string* const value = scalar(key, fallback);
-  if (value == nullptr) fail(key, "missing. Give a text, e.g. a name.");
+  if (value == nullptr) {
+    fail(key, "missing. Give ",
+         example != nullptr ? text("it, e.g. ", key, ": ", example) : "a text", ".");
+  }
   if (value->empty() && fallback == nullptr) fail(key, "must not be empty.");
   return *value;
 }
@@ -166,8 +173,11 @@ std::vector<double> MapReader::quantities(const std::string& key, Dimension dime
   }
   const std::size_t n = list.entries.size();
   if (n < n_min || n > n_max) {
-    fail(key, "has ", n, n == 1 ? " value" : " values", "; ",
-         n_min == n_max ? text(n_min) : text("at least ", n_min), " are needed.");
+    const std::string wanted = n_min == n_max ? text(n_min)
+                               : n < n_min    ? text("at least ", n_min)
+                                              : text("at most ", n_max);
+    fail(key, "has ", n, n == 1 ? " value" : " values", "; ", wanted,
+         wanted == "1" ? " is needed." : " are needed.");
   }
   std::vector<double> out;
   for (const auto& [name, item] : list.entries) {
@@ -224,7 +234,8 @@ std::vector<std::string> MapReader::strings(const std::string& key, Keys choices
 MapReader MapReader::map(const std::string& key, Keys keys) {
   const ConfigNode* const child = node_->find(key);
   ConfigNode& effective = effective_->put(key, ConfigNode{});
-  return {child != nullptr ? *child : kEmptyNode, path_of(key), effective, keys};
+  return {child != nullptr ? *child : kEmptyNode, path_of(key), effective, keys,
+          child != nullptr ? child->where : where_};
 }
 
 void MapReader::each(const std::string& key, const Item& read_item) {

@@ -40,7 +40,8 @@ class MapReader {
 
   /// Error unless the node is a map (or empty) of these keys only. `effective` receives what is
   /// read and must outlive the reader.
-  MapReader(const ConfigNode& node, std::string path, ConfigNode& effective, Keys keys);
+  MapReader(const ConfigNode& node, std::string path, ConfigNode& effective, Keys keys)
+      : MapReader(node, std::move(path), effective, keys, node.where) {}
 
   bool has(std::string_view key) const;
 
@@ -52,7 +53,9 @@ class MapReader {
   std::int64_t integer(const std::string& key, std::int64_t low, std::int64_t high,
                        const char* fallback = nullptr);
   bool boolean(const std::string& key, bool fallback);
-  std::string string(const std::string& key, const char* fallback = nullptr);
+  /// `example` stands in the message that a required text is missing.
+  std::string string(const std::string& key, const char* fallback = nullptr,
+                     const char* example = nullptr);
   /// Index into `choices` of the word given.
   std::size_t choice(const std::string& key, Keys choices, const char* fallback = nullptr);
   /// A list of at least n_min and at most n_max quantities.
@@ -77,10 +80,12 @@ class MapReader {
 
   template <class... Parts>
   [[noreturn]] void fail(std::string_view key, const Parts&... parts) const {
-    throw Error(ErrorKind::config, text(locate(key), ": ", parts...));
+    throw Error(ErrorKind::config, one_line(text(locate(key), ": ", parts...)));
   }
 
  private:
+  MapReader(const ConfigNode& node, std::string path, ConfigNode& effective, Keys keys,
+            std::string where);
   /// Text of a scalar, noted as effective; nullptr when absent and not required.
   const std::string* scalar(const std::string& key, const char* fallback);
   double checked(std::string_view key, const std::string& text, Dimension dimension,
@@ -88,6 +93,7 @@ class MapReader {
 
   const ConfigNode* node_;
   std::string path_;
+  std::string where_;  ///< of the map, or of the one around it when it is absent
   ConfigNode* effective_;
 };
 

@@ -65,7 +65,7 @@ std::optional<RegionSettings> read_region(MapReader& root, double radius_m) {
     out.shape = read_region_points(keys);
   } else {
     MapReader polygons = keys.map("polygons", {"file", "feature"});
-    out.polygons.file = polygons.string("file");
+    out.polygons.file = polygons.string("file", nullptr, "region.geojson");
     out.polygons.where = polygons.locate("file");
     out.feature = polygons.string("feature", "");
   }

@@ -12,7 +12,7 @@ namespace delos {
 namespace {
 
 TimeInterval read_interval(MapReader& keys, const std::string& key) {
-  const std::string given = keys.string(key);
+  const std::string given = keys.string(key, nullptr, "P1M");
   TimeInterval interval;
   try {
     interval = parse_interval(given);
@@ -137,7 +137,7 @@ FixedRegion read_box(MapReader& keys) {
 
 FixedFile read_polygon(MapReader& keys) {
   FixedFile out;
-  out.file = keys.string("file");
+  out.file = keys.string("file", nullptr, "regions.geojson");
   out.where = keys.locate("file");
   out.feature = keys.string("feature", "");
   return out;

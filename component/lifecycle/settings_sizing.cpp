@@ -28,7 +28,7 @@ std::optional<std::size_t> optional_index(MapReader& keys, const std::string& ke
 
 FileRequest file_request(MapReader& keys, const std::string& file_key) {
   FileRequest request;
-  request.file = keys.string(file_key);
+  request.file = keys.string(file_key, nullptr, "h.nc");
   request.where = keys.locate(file_key);
   return request;
 }
@@ -325,12 +325,18 @@ CombineOptions read_combine(MapReader& sizing, std::size_t n_sources) {
   if (node != nullptr && node->kind == ConfigNode::Kind::map) {
     MapReader keys = sizing.map("combine", {"blend"});
     out.rule = CombineRule::blend;
-    out.weights =
-        keys.quantities("blend", Dimension::none, Bounds::not_negative(), {n_sources, n_sources});
+    constexpr double kMaxWeight = 1e6;  // only their ratios count; sums of larger ones overflow
+    out.weights = keys.quantities("blend", Dimension::none, Bounds::between(0.0, kMaxWeight),
+                                  {n_sources, n_sources});
     double sum = 0.0;
     for (const double weight : out.weights) sum += weight;
     if (sum <= 0.0) keys.fail("blend", "at least one weight must be > 0.");
   } else {
+    if (node != nullptr && node->kind == ConfigNode::Kind::scalar && node->scalar != "min" &&
+        node->scalar != "max") {
+      sizing.fail("combine", "'", node->scalar, "' is not known. Valid here: min, max, or ",
+                  "{blend: [0.5, 0.5]} with a weight for each source.");
+    }
     out.rule =
         sizing.choice("combine", {"min", "max"}, "min") == 0 ? CombineRule::min : CombineRule::max;
   }

@@ -12,14 +12,26 @@ namespace delos {
 namespace {
 
 constexpr int kMaxDepth = 32;  // far above any real configuration; bounds the recursion
+/// Every value counts, and every use of an alias counts all that it stands for: twice the longest
+/// list of points that a configuration may hold.
+constexpr std::int64_t kMaxNodes = 4'000'000;
 
 std::string at_line(const std::string& name, const YAML::Mark& mark) {
-  return text(name, ":", mark.line + 1);
+  return text(name, ":", std::max(mark.line, 0) + 1);  // an empty text has no line
 }
 
-ConfigNode convert(const YAML::Node& node, const std::string& name, int depth) {
+/// What a file becomes, and how much of it there is so far.
+struct Conversion {
+  const std::string& name;
+  std::int64_t n_nodes = 0;
+};
+
+ConfigNode convert(const YAML::Node& node, Conversion& file, int depth) {
+  const std::string& name = file.name;
   ConfigNode out;
   out.where = at_line(name, node.Mark());
+  DELOS_CHECK(++file.n_nodes <= kMaxNodes, ErrorKind::config, out.where, ": more than ", kMaxNodes,
+              " values, each use of an alias counted. Are there aliases of aliases?");
   DELOS_CHECK(depth < kMaxDepth, ErrorKind::config, out.where, ": nested more than ", kMaxDepth,
               " levels deep. Is an alias part of itself?");
   if (node.IsScalar()) {
@@ -29,7 +41,7 @@ ConfigNode convert(const YAML::Node& node, const std::string& name, int depth) {
   } else if (node.IsSequence()) {
     out.kind = ConfigNode::Kind::list;
     for (const YAML::Node& item : node)
-      out.entries.emplace_back("", convert(item, name, depth + 1));
+      out.entries.emplace_back("", convert(item, file, depth + 1));
   } else if (node.IsMap()) {
     out.kind = ConfigNode::Kind::map;
     for (const auto& entry : node) {
@@ -38,7 +50,7 @@ ConfigNode convert(const YAML::Node& node, const std::string& name, int depth) {
       const std::string& key = entry.first.Scalar();
       DELOS_CHECK(out.find(key) == nullptr, ErrorKind::config, at_line(name, entry.first.Mark()),
                   " ", key, ": this key is given twice. Remove one of them.");
-      out.entries.emplace_back(key, convert(entry.second, name, depth + 1));
+      out.entries.emplace_back(key, convert(entry.second, file, depth + 1));
     }
   }
   return out;
@@ -46,12 +58,16 @@ ConfigNode convert(const YAML::Node& node, const std::string& name, int depth) {
 
 ConfigNode load(const std::string& yaml, const std::string& name) {
   try {
-    return convert(YAML::Load(yaml), name, 0);
+    const std::vector<YAML::Node> documents = YAML::LoadAll(yaml);
+    DELOS_CHECK(documents.size() <= 1, ErrorKind::config, name, ": holds ", documents.size(),
+                " YAML documents (begun by ---). Give one.");
+    Conversion file{name};
+    return convert(documents.empty() ? YAML::Node() : documents[0], file, 0);
   } catch (const YAML::Exception& error) {
     const bool has_tab = yaml.rfind('\t', 0) == 0 || yaml.find("\n\t") != std::string::npos ||
                          yaml.find(" \t") != std::string::npos;
     throw Error(ErrorKind::config,
-                text(at_line(name, error.mark), ": this is not YAML: ", error.msg,
+                text(at_line(name, error.mark), ": this is not YAML: ", one_line(error.msg),
                      has_tab ? ". Put spaces in place of the tabs that some lines begin with."
                              : ". Check quotes, colons and indentation."));
   }
@@ -154,6 +170,22 @@ ConfigNode ConfigNode::text(std::string scalar, std::string where) {
   node.scalar = std::move(scalar);
   node.where = std::move(where);
   return node;
+}
+
+std::string one_line(std::string message) {
+  constexpr std::size_t kLongest = 2000;  // bytes: a screen
+  if (message.size() > kLongest) {
+    message.replace(kLongest / 2, message.size() - kLongest, " ... ");
+  }
+  for (char& c : message) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '\n' || c == '\r' || c == '\t') {
+      c = ' ';
+    } else if (byte < 0x20 || byte == 0x7f) {
+      c = '?';
+    }
+  }
+  return message;
 }
 
 ConfigNode parse_config(const std::string& yaml, const std::string& name) {

@@ -35,7 +35,12 @@ struct ConfigEntry {
       : first(std::move(key)), second(std::move(value)) {}
 };
 
-/// Error(config) that begins with "name:line" when the text is no YAML map or names a key twice.
+/// A message without what would disturb a terminal or break the line: line ends and tabs become
+/// blanks, other control characters '?', and of what is longer than a screen the middle is cut.
+std::string one_line(std::string message);
+
+/// Error(config) that begins with "name:line" when the text is no YAML map, names a
+/// key twice, has more than one document or aliases that make it huge.
 ConfigNode parse_config(const std::string& yaml, const std::string& name);
 
 /// Sets the value (YAML) of a key such as "sizing.sources.0.spacing"; parents that are not there

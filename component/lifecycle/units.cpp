@@ -120,6 +120,10 @@ Quantity parse_quantity(std::string_view text, Dimension dimension) {
     return result;
   }
   result.value *= unit->factor;
+  if (!std::isfinite(result.value)) {
+    result.error = delos::text("'", text, "' is too large to compute with; ", needed.noun,
+                               " is e.g. '", needed.example, "'.");
+  }
   return result;
 }
 

@@ -135,5 +135,8 @@ TEST_CASE("a data file that is not found is answered with the places and the pac
                [&] { find_data_file("etopo5.cdf", here.file(""), path); });
   expect_error(ErrorKind::input, {"levitus_climatology.cdf", "ferret-datasets"},
                [&] { find_data_file("levitus_climatology.cdf", here.file(""), path); });
+  std::filesystem::create_directory(here.file("f.nc"));
+  expect_error(ErrorKind::input, {"f.nc is a folder. "},
+               [&] { find_data_file("f.nc", here.file(""), path); });
   expect_error(ErrorKind::config, {"empty"}, [&] { find_data_file("", here.file(""), path); });
 }

@@ -154,6 +154,13 @@ TEST_CASE("a GeoJSON error names file, feature and reason") {
     nested = R"({"type":"GeometryCollection","geometries":[)" + nested + "]}";
   }
   refuse(nested, "", {"nested too deeply"});
+  // Far deeper than a stack: no position, and none to be taken apart for the message.
+  constexpr std::size_t kDeep = 200'000;
+  refuse(feature("deep", polygon(std::string(kDeep, '[') + std::string(kDeep, ']'))), "",
+         {"nested more than 100 deep"});
+  // Brackets within a text do not count.
+  const std::string brackets(kDeep, '[');
+  refuse(collection(feature("\\\"" + brackets, "null")), "", {"holds no polygon"});
 }
 
 TEST_CASE("lines are taken by name or tag, but for those left out") {

@@ -471,6 +471,39 @@ TEST_CASE("what is no lat-lon field is refused with file, variable and reason") 
   });
 }
 
+TEST_CASE("attributes of packing that are no numbers, or too many, are refused") {
+  const TemporaryFolder folder;
+  const auto refuse = [&](const auto& change, std::initializer_list<std::string> parts) {
+    expect_error(ErrorKind::input, parts, [&] { read_raster(write_with(folder, {}, change), {}); });
+  };
+  for (const char* const name : {"scale_factor", "add_offset", "valid_min", "missing_value"}) {
+    refuse([&](Writer& file, VariableId h) { file.attribute(h, name, "2"); },
+           {"h.nc", "'h'", name, "is text where numbers are needed"});
+  }
+  const std::vector<double> three = {0.0, 1.0, 2.0};
+  refuse([&](Writer& file, VariableId h) { file.attribute(h, "scale_factor", three); },
+         {"scale_factor has 3 values where 1 is needed"});
+  refuse([&](Writer& file, VariableId h) { file.attribute(h, "valid_range", three); },
+         {"valid_range has 3 values where 2 are needed"});
+}
+
+TEST_CASE("coordinates in radians are refused, said so or not") {
+  const TemporaryFolder folder;
+  Sample sample;
+  for (double& lat : sample.lat) lat *= 1.57 / 75.0;
+  for (double& lon : sample.lon) lon *= 6.283 / 360.0;
+  expect_error(ErrorKind::input, {"h.nc", "look like radians"},
+               [&] { read_raster(write(folder, sample), {}); });
+  sample.attributes = [](Writer& file, VariableId lat, VariableId lon, VariableId) {
+    file.attribute(lat, "units", "radians");
+    file.attribute(lon, "units", "radians");
+  };
+  RasterRequest request;
+  request.variable = "h";
+  expect_error(ErrorKind::input, {"h.nc", "is in radians"},
+               [&] { read_raster(write(folder, sample), request); });
+}
+
 TEST_CASE("several candidates, curvilinear grids and huge fields are refused") {
   const TemporaryFolder folder;
   const std::string path = folder.file("many.nc");

@@ -124,6 +124,46 @@ TEST_CASE("broken YAML and a key given twice are refused with their line") {
   has(error_of("threads: 1\nthreads: 2\n"), "a.yaml:2 threads: this key is given twice");
 }
 
+TEST_CASE("a second document and aliases of aliases are refused") {
+  has(error_of(std::string(kUniform) + "---\nthreads: 4\n"), "a.yaml: holds 2 YAML documents");
+  CHECK(read("---\n" + std::string(kUniform) + "...\n").sizing.sources.size() == 1);
+  std::string laughs = "a: &a [1, 1, 1, 1, 1, 1, 1, 1, 1, 1]\n";
+  for (const char c : {'b', 'c', 'd', 'e', 'f', 'g', 'h'}) {
+    const std::string before(1, static_cast<char>(c - 1)), name(1, c);
+    laughs += name + ": &" + name + " [";
+    for (int i = 0; i < 10; ++i) laughs += (i == 0 ? "*" : ", *") + before;
+    laughs += "]\n";
+  }
+  has(error_of(laughs), "Are there aliases of aliases?");
+}
+
+TEST_CASE("an error is one line of bounded length and names the file") {
+  has(error_of(""), "a.yaml:1 sizing.sources: at least one source");
+  has(error_of(std::string(kUniform) + "generator: \"a\\e[1m\\nb\"\n"), "'a?[1m b' is not known");
+  CHECK(error_of(std::string(kUniform) + "generator: " + std::string(99999, 'x') + "\n").size() <
+        3000);
+  has(error_of(std::string("\0\0", 2)), "this is not YAML");
+}
+
+TEST_CASE("numbers that overflow and names that are no file names are refused where they stand") {
+  has(error_of(with_source("{type: constant, spacing: 1e308 km}")),
+      "a.yaml:3 sizing.sources.0.spacing: '1e308 km' is too large");
+  has(error_of("surface: {centre: [1e300 km, 0 km, 0 km]}\n"),
+      "a.yaml:1 surface.centre: lies more");
+  has(error_of(std::string(kUniform) + "refine: {size_ratio: 1}\n"),
+      "a.yaml:4 refine.size_ratio: 1");
+  has(error_of(std::string(kUniform) + "output: {name: \"a\\nb\"}\n"), "is no file name");
+  has(error_of(std::string(kUniform) + "output: {name: " + std::string(300, 'n') + "}\n"),
+      "has 300 bytes");
+  std::string parts = "2";
+  for (int i = 3; i < 70; ++i) parts += ", " + std::to_string(i);
+  has(error_of(std::string(kUniform) + "output: {partitions: [" + parts + "]}\n"),
+      "has 68 values; at most 64 are needed");
+  has(error_of("sizing: {sources: [{type: constant, spacing: 60 km}], combine: mean}\n"),
+      "{blend: [0.5, 0.5]}");
+  has(error_of(std::string(kUniform) + "remesh: {sources: []}\n"), "Give it, e.g. interval: P1M.");
+}
+
 TEST_CASE("overrides replace, add and append, and name themselves in errors") {
   ConfigNode root = parse_config(kUniform, "a.yaml");
   override_config(root, "sizing.sources.0.spacing", "120 km");
