@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/error.hpp"
+#include "core/types.hpp"
 #include "io/names.hpp"
 #include "io/netcdf.hpp"
 #include "io/raster_axes.hpp"
@@ -106,15 +107,25 @@ std::size_t lat_lon_axis(const netcdf::Reader& file, const netcdf::Variable& var
                    "degrees_east."));
 }
 
-/// Latitudes and longitudes of the whole globe in radians, whatever their units say.
+/// Latitudes and longitudes of the whole globe in radians, whatever their units say: the columns
+/// close a turn of 2 pi to three digits, with the first one again or without, and the rows end
+/// within a step of the poles. A region in degrees hardly does.
 void check_degrees(const Field& field) {
-  constexpr double kLeastLat = 1.4, kMostLat = 1.571, kLeastTurn = 5.5, kMostTurn = 6.284;
+  constexpr double kTolerance = 1e-3;
   const std::vector<double>&lat = field.rows.values_deg, &lon = field.columns.values_deg;
-  const double south = -lat.front(), north = lat.back(), turn = lon.back() - lon.front();
-  const bool is_radians = south > kLeastLat && south < kMostLat && north > kLeastLat &&
-                          north < kMostLat && turn > kLeastTurn && turn < kMostTurn;
-  DELOS_CHECK(!is_radians, ErrorKind::input, field.where, ": latitudes from ", -south, " to ",
-              north, " and ", turn, " of longitude look like radians. Convert them to degrees.");
+  if (lat.size() < 2 || lon.size() < 2) return;
+  const double turn = lon.back() - lon.front();
+  const double lon_step = turn / static_cast<double>(lon.size() - 1);
+  const double lat_step = (lat.back() - lat.front()) / static_cast<double>(lat.size() - 1);
+  const auto is_turn = [](double angle) { return std::abs(angle - 2.0 * kPi) < kTolerance; };
+  const auto is_pole = [lat_step](double angle) {
+    return angle < 0.5 * kPi + kTolerance && angle > 0.5 * kPi - lat_step - kTolerance;
+  };
+  const bool is_radians =
+      (is_turn(turn) || is_turn(turn + lon_step)) && is_pole(-lat.front()) && is_pole(lat.back());
+  DELOS_CHECK(!is_radians, ErrorKind::input, field.where, ": latitudes from ", lat.front(), " to ",
+              lat.back(), " and ", turn,
+              " of longitude look like radians. Convert them to degrees.");
 }
 
 Field open_field(const netcdf::Reader& file, const RasterRequest& request) {

@@ -504,6 +504,14 @@ TEST_CASE("coordinates in radians are refused, said so or not") {
                [&] { read_raster(write(folder, sample), request); });
 }
 
+TEST_CASE("a small region about the equator is no globe in radians") {
+  const TemporaryFolder folder;
+  Sample sample;
+  sample.lat = even(-1.5, 0.6, 6);
+  sample.lon = even(0, 0.5, 12);
+  CHECK(read_raster(write(folder, sample), {}).n_lat() == 6);
+}
+
 TEST_CASE("several candidates, curvilinear grids and huge fields are refused") {
   const TemporaryFolder folder;
   const std::string path = folder.file("many.nc");
