@@ -23,15 +23,14 @@ constexpr double kLongestSide = 1.05;
 struct Flooded {
   std::vector<std::vector<Index>> holes;  // ascending
   std::vector<Index> first_place;         // by hole, and one more
-  const std::vector<Index>& place_of;     // by old triangle
+  Array<Index> place_of;                  // by old triangle
 };
 
 // One hole while vertices are taken out of it.
 class Emptying {
  public:
   // `local_id` has kNone for every old vertex, and has so again afterwards.
-  Emptying(const OldMesh& old, const Flooded& flooded, std::size_t hole,
-           std::vector<Index>& local_id)
+  Emptying(const OldMesh& old, const Flooded& flooded, std::size_t hole, Array<Index>& local_id)
       : old_(old) {
     load(flooded, hole, local_id);
   }
@@ -41,8 +40,8 @@ class Emptying {
   Hole take();
 
  private:
-  void load(const Flooded& flooded, std::size_t hole, std::vector<Index>& local_id);
-  Vec3 position(Index v) const { return old_.mesh.position(vertices_[at(v)]); }
+  void load(const Flooded& flooded, std::size_t hole, Array<Index>& local_id);
+  const Vec3& position(Index v) const { return positions_[at(v)]; }
   Triangle& triangle(Index t) { return triangles_[at(t)]; }
   void gather_star(Index vertex);
   bool cut_ears(Index vertex);
@@ -61,6 +60,7 @@ class Emptying {
 
   const OldMesh& old_;
   std::vector<Index> vertices_;  // old ids, ascending
+  std::vector<Vec3> positions_;
   std::vector<Triangle> triangles_;
   std::vector<Hole::BorderSide> border_;
   std::vector<Index> at_vertex_;
@@ -68,7 +68,7 @@ class Emptying {
   Star star_;
 };
 
-void Emptying::load(const Flooded& flooded, std::size_t hole, std::vector<Index>& local_id) {
+void Emptying::load(const Flooded& flooded, std::size_t hole, Array<Index>& local_id) {
   const std::vector<Index>& triangles = flooded.holes[hole];
   for (const Index tri : triangles) {
     for (const Index v : old_.mesh.triangle(tri).vertex) {
@@ -81,6 +81,8 @@ void Emptying::load(const Flooded& flooded, std::size_t hole, std::vector<Index>
   for (std::size_t i = 0; i < vertices_.size(); ++i) {
     local_id[at(vertices_[i])] = static_cast<Index>(i);
   }
+  positions_.reserve(vertices_.size());
+  for (const Index v : vertices_) positions_.push_back(old_.mesh.position(v));
   at_vertex_.assign(vertices_.size(), kNone);
   is_gone_.assign(vertices_.size(), 0);
   const Index first = flooded.first_place[hole], end = flooded.first_place[hole + 1];
@@ -279,16 +281,16 @@ Hole Emptying::take() {
   return out;
 }
 
-// The triangles around removed vertices, a connected set a hole; place_of is filled.
-Flooded flood_holes(const OldMesh& old, const Region& region, std::vector<Index>& place_of) {
+// The triangles around removed vertices, a connected set a hole.
+Flooded flood_holes(const OldMesh& old, const Region& region) {
   const Mesh& mesh = old.mesh;
   const auto is_inside = [&](Index tri) {
     const auto& v = mesh.triangle(tri).vertex;
     return std::any_of(v.begin(), v.end(),
                        [&](Index i) { return region.change[at(i)] == Change::remove; });
   };
-  place_of.assign(mesh.triangles.size(), kNone);
-  Flooded out{{}, {0}, place_of};
+  Flooded out{{}, {0}, Array<Index>(mesh.triangles.size(), kNone)};
+  Array<Index>& place_of = out.place_of;
   for (Index v = 0; v < mesh.n_vertices(); ++v) {
     if (region.change[at(v)] != Change::remove) continue;
     const Index seed = old.at_vertex[at(v)];
@@ -352,26 +354,25 @@ std::vector<std::size_t> largest_first(std::size_t n, const Size& size) {
 
 }  // namespace
 
-Holes make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
-                 const Region& region) {
-  Holes out;
-  Flooded flooded = flood_holes(old, region, out.place_of);
-  out.holes.resize(flooded.holes.size());
+std::vector<Hole> make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
+                             const Region& region) {
+  Flooded flooded = flood_holes(old, region);
+  std::vector<Hole> out(flooded.holes.size());
   const bool by_balls = surface.radii().minCoeff() < kFlattestForPlanes;
   const std::vector<std::size_t> order =
       largest_first(flooded.holes.size(), [&](std::size_t i) { return flooded.holes[i].size(); });
-  std::vector<std::vector<Index>> local_ids(at(context.exec.n_threads()));
+  std::vector<Array<Index>> local_ids(at(context.exec.n_threads()));
   parallel::for_index(context.exec, static_cast<std::int64_t>(order.size()), kHoleGrain,
                       [&](std::int64_t i) {
                         context.monitor.check_cancelled();
                         const std::size_t hole = order[at(i)];
-                        std::vector<Index>& ids = local_ids[at(context.exec.thread_slot())];
+                        Array<Index>& ids = local_ids[at(context.exec.thread_slot())];
                         ids.resize(old.mesh.vertices.size(), kNone);
                         Emptying emptying(old, flooded, hole, ids);
                         emptying.remove(region.change);
                         emptying.restore_delaunay(by_balls);
-                        out.holes[hole] = emptying.take();
-                        out.holes[hole].old_triangles = std::move(flooded.holes[hole]);
+                        out[hole] = emptying.take();
+                        out[hole].old_triangles = std::move(flooded.holes[hole]);
                       });
   return out;
 }

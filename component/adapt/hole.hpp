@@ -25,14 +25,9 @@ struct Hole {
   std::vector<BorderSide> border;
 };
 
-struct Holes {
-  std::vector<Hole> holes;
-  std::vector<Index> place_of;  ///< by old triangle: its place among those of all holes, or kNone
-};
-
 /// Empties the region, hole by hole in the order of their least removed vertices.
-Holes make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
-                 const Region& region);
+std::vector<Hole> make_holes(Context& context, const Ellipsoid& surface, const OldMesh& old,
+                             const Region& region);
 
 struct FillInput {
   const Ellipsoid& surface;

@@ -2,6 +2,9 @@
 #include "adapt/join.hpp"
 
 #include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <numeric>
 
 namespace delos {
 namespace {
@@ -10,32 +13,47 @@ constexpr std::int64_t kCopyGrain = 16384;  // vertices or triangles a task: som
 constexpr std::size_t kLeastRoom = 64, kRoomShare = 16;  // polish adds below 1 % of new vertices
 constexpr std::int64_t kHoleGrain = 1;  // a filling is at least some hundred triangles
 
-// The id after compaction by the id before, kNone where is_gone(id), and how many are left.
+// The id after compaction by the id before, kNone for what is gone, and how many are left.
 struct NewIds {
-  std::vector<Index> of;
+  Array<Index> of;
   Index n_left = 0;
 };
 
-template <class IsGone>
-NewIds count_up(parallel::Executor& exec, std::size_t n, const IsGone& is_gone) {
-  const auto n_blocks = (static_cast<std::int64_t>(n) + kCopyGrain - 1) / kCopyGrain;
-  const auto end_of = [&](std::int64_t block) {
-    return std::min(static_cast<std::int64_t>(n), (block + 1) * kCopyGrain);
-  };
-  const auto first = parallel::exclusive_scan(exec, n_blocks, 1, [&](std::int64_t block) {
-    std::int64_t count = 0;
-    for (std::int64_t i = block * kCopyGrain; i < end_of(block); ++i) count += is_gone(i) ? 0 : 1;
-    return count;
-  });
-  NewIds out{std::vector<Index>(n), static_cast<Index>(first.back())};
-  parallel::for_index(exec, n_blocks, 1, [&](std::int64_t block) {
-    auto next = static_cast<Index>(first[at(block)]);
-    for (std::int64_t i = block * kCopyGrain; i < end_of(block); ++i) {
-      out.of[at(i)] = is_gone(i) ? kNone : next++;
+// Ids of which some go; the others close up in their order.
+class Leaving {
+ public:
+  explicit Leaving(std::size_t n_ids) : n_ids_(n_ids), gone_((n_ids + kWordIds - 1) / kWordIds) {}
+
+  void take_out(Index id) { gone_[at(id / kWordIds)] |= bit_of(id); }
+  void put_back(Index id) { gone_[at(id / kWordIds)] &= ~bit_of(id); }
+  /// Their new ids, kNone for those that go.
+  NewIds new_ids(parallel::Executor& exec) const {
+    NewIds out{Array<Index>(n_ids_), 0};
+    std::vector<Index> first;
+    for (const std::uint64_t gone : gone_) {
+      first.push_back(out.n_left);
+      out.n_left += kWordIds - static_cast<Index>(std::popcount(gone));
     }
-  });
-  return out;
-}
+    out.n_left -= static_cast<Index>(gone_.size() * kWordIds - n_ids_);
+    parallel::for_index(exec, static_cast<std::int64_t>(gone_.size()), kCopyGrain / kWordIds,
+                        [&](std::int64_t word) { write_word(at(word), first[at(word)], out.of); });
+    return out;
+  }
+
+ private:
+  static constexpr Index kWordIds = 64;
+  static std::uint64_t bit_of(Index id) { return std::uint64_t{1} << (id % kWordIds); }
+  void write_word(std::size_t word, Index next, Array<Index>& of) const {
+    const std::size_t begin = word * kWordIds, end = std::min(begin + kWordIds, n_ids_);
+    if (gone_[word] == 0) return std::iota(of.begin() + begin, of.begin() + end, next);
+    for (std::size_t id = begin; id < end; ++id) {
+      of[id] = (gone_[word] >> (id - begin) & 1) != 0 ? kNone : next++;
+    }
+  }
+
+  std::size_t n_ids_;
+  std::vector<std::uint64_t> gone_;  // a bit an id
+};
 
 // Where the filling of a hole begins.
 struct Place {
@@ -44,7 +62,7 @@ struct Place {
 
 class Joiner {
  public:
-  Joiner(parallel::Executor& exec, const OldMesh& old, const Holes& holes,
+  Joiner(parallel::Executor& exec, const OldMesh& old, const std::vector<Hole>& holes,
          const std::vector<TileMesh>& fillings)
       : exec_(exec),
         old_(old.mesh),
@@ -81,7 +99,7 @@ class Joiner {
   parallel::Executor& exec_;
   const Mesh& old_;
   const std::vector<Index>& at_old_vertex_;
-  const Holes& holes_;
+  const std::vector<Hole>& holes_;
   const std::vector<TileMesh>& fillings_;
   NewIds vertex_, triangle_;
   std::vector<Place> places_;
@@ -90,19 +108,18 @@ class Joiner {
 
 void Joiner::number() {
   // Gone are the vertices of the holes' triangles that the emptied hole has no more.
-  std::vector<char> is_gone(old_.vertices.size(), 0);
-  for (const Hole& hole : holes_.holes) {
+  Leaving vertices(old_.vertices.size()), triangles(old_.triangles.size());
+  for (const Hole& hole : holes_) {
     for (const Index tri : hole.old_triangles) {
-      for (const Index v : old_.triangle(tri).vertex) is_gone[at(v)] = 1;
+      triangles.take_out(tri);
+      for (const Index v : old_.triangle(tri).vertex) vertices.take_out(v);
     }
   }
-  for (const Hole& hole : holes_.holes) {
-    for (const Index v : hole.vertices) is_gone[at(v)] = 0;
+  for (const Hole& hole : holes_) {
+    for (const Index v : hole.vertices) vertices.put_back(v);
   }
-  vertex_ =
-      count_up(exec_, old_.vertices.size(), [&](std::int64_t v) { return is_gone[at(v)] != 0; });
-  triangle_ = count_up(exec_, old_.triangles.size(),
-                       [&](std::int64_t tri) { return holes_.place_of[at(tri)] != kNone; });
+  vertex_ = vertices.new_ids(exec_);
+  triangle_ = triangles.new_ids(exec_);
   out_.first_inserted = vertex_.n_left;
   out_.first_filling = triangle_.n_left;
   Place next{vertex_.n_left, triangle_.n_left};
@@ -144,7 +161,7 @@ void Joiner::copy_triangles() {
 // After copy_triangles(), which leaves kNone across the holes' borders.
 void Joiner::write_filling(std::size_t hole) {
   const TileMesh& filling = fillings_[hole];
-  const std::vector<Index>& survivors = holes_.holes[hole].vertices;
+  const std::vector<Index>& survivors = holes_[hole].vertices;
   const Place& place = places_[hole];
   const auto n_survivors = static_cast<Index>(filling.skeleton_vertices.size());
   std::copy(filling.inserted.begin(), filling.inserted.end(),
@@ -160,7 +177,7 @@ void Joiner::write_filling(std::size_t hole) {
   }
   for (std::size_t i = 0; i < filling.border.size(); ++i) {
     const TriangleSide& inner = filling.border[i];
-    const Hole::BorderSide& outer = holes_.holes[hole].border[i];
+    const Hole::BorderSide& outer = holes_[hole].border[i];
     const Index inside = place.triangle + inner.triangle, outside = triangle_.of[at(outer.outside)];
     out_.mesh.triangle(inside).neighbour[at(inner.side)] = outside;
     out_.mesh.triangle(outside).neighbour[at(outer.side)] = inside;
@@ -169,7 +186,7 @@ void Joiner::write_filling(std::size_t hole) {
 
 }  // namespace
 
-Joined join(parallel::Executor& exec, const OldMesh& old, const Holes& holes,
+Joined join(parallel::Executor& exec, const OldMesh& old, const std::vector<Hole>& holes,
             const std::vector<TileMesh>& fillings) {
   return Joiner(exec, old, holes, fillings).run();
 }

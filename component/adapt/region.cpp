@@ -2,6 +2,7 @@
 #include "adapt/region.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 #include <utility>
 
@@ -11,6 +12,7 @@ namespace delos {
 namespace {
 
 constexpr std::int64_t kCompareGrain = 8192;  // vertices a task: about a quarter millisecond
+constexpr std::int64_t kCompareBatch = 256;   // looked up together, in the first-level cache
 
 template <class Visit>
 void for_each_neighbour(const OldMesh& old, Index vertex, const Visit& visit) {
@@ -28,15 +30,18 @@ std::vector<char> compare_spacings(parallel::Executor& exec, const Mesh& mesh,
   };
   parallel::for_range(
       exec, mesh.n_vertices(), kCompareGrain, [&](std::int64_t begin, std::int64_t end) {
-        std::vector<Vertex> now(mesh.vertices.begin() + begin, mesh.vertices.begin() + end);
-        spacing.evaluate(now);
-        for (std::int64_t v = begin; v < end; ++v) {
-          const double before = mesh.vertices[static_cast<std::size_t>(v)].spacing;
-          const double after = now[static_cast<std::size_t>(v - begin)].spacing;
-          fit[static_cast<std::size_t>(v)] = is_within(before, after, options.blend) ? fits
-                                             : is_within(before, after, options.tolerance)
-                                                 ? off_blend
-                                                 : off_tolerance;
+        std::array<Vertex, kCompareBatch> now;
+        for (std::int64_t first = begin; first < end; first += kCompareBatch) {
+          const std::int64_t n = std::min(kCompareBatch, end - first);
+          std::copy_n(mesh.vertices.begin() + first, n, now.begin());
+          spacing.evaluate(std::span(now).first(at(n)));
+          for (std::int64_t i = 0; i < n; ++i) {
+            const double before = mesh.vertices[at(first + i)].spacing;
+            const double after = now[at(i)].spacing;
+            fit[at(first + i)] = is_within(before, after, options.blend)       ? fits
+                                 : is_within(before, after, options.tolerance) ? off_blend
+                                                                               : off_tolerance;
+          }
         }
       });
   return fit;
@@ -130,13 +135,14 @@ int passing_rings(const RegionOptions& options) {
 Growth grown_parts(const OldMesh& old, const std::vector<char>& fit,
                    const std::vector<char>& is_barred, const RegionOptions& options,
                    std::vector<double>& share) {
-  share.assign(fit.size(), 0.0);
+  if (options.passes) share.assign(fit.size(), 0.0);
   Growth grown(old, is_barred);
   for (const Index v : wanted_parts(old, fit, is_barred, options)) {
     if (!options.passes || fit[at(v)] == off_tolerance) grown.add(v);
   }
   const int n_rings = options.passes ? passing_rings(options) : options.blend_rings;
   const auto give = [&](std::size_t first, double value) {
+    if (!options.passes) return;
     for (std::size_t i = first; i < grown.members().size(); ++i) {
       share[at(grown.members()[i])] = value;
     }
@@ -146,9 +152,21 @@ Growth grown_parts(const OldMesh& old, const std::vector<char>& fit,
     const std::size_t first = grown.members().size();
     const bool takes_all = options.passes && ring <= options.rings;
     grown.add_ring([&](Index v) { return takes_all || fit[at(v)] != fits; });
-    give(first, options.passes ? 1.0 - ring / (n_rings + 1.0) : 1.0);
+    give(first, 1.0 - ring / (n_rings + 1.0));
   }
   return grown;
+}
+
+// Vertices around the removed ones that stay but may move; how many.
+std::int64_t let_move(const OldMesh& old, const std::vector<char>& is_barred,
+                      const std::vector<Index>& removed, int n_rings, std::vector<Change>& change) {
+  Growth moving(old, is_barred);
+  for (const Index v : removed) moving.add(v);
+  for (int ring = 0; ring < n_rings; ++ring) moving.add_ring([](Index) { return true; });
+  for (const Index v : moving.members()) {
+    if (change[at(v)] == Change::keep) change[at(v)] = Change::move;
+  }
+  return static_cast<std::int64_t>(moving.members().size() - removed.size());
 }
 
 }  // namespace
@@ -167,15 +185,8 @@ Region find_region(parallel::Executor& exec, const OldMesh& old, const SpacingFi
   const Growth grown = grown_parts(old, fit, is_barred, options, out.share);
   for (const Index v : grown.members()) out.change[at(v)] = Change::remove;
   out.n_removed = static_cast<std::int64_t>(grown.members().size());
-
-  Growth moving(old, is_barred);
-  for (const Index v : grown.members()) moving.add(v);
-  for (int ring = 0; ring < options.moving_rings; ++ring) {
-    moving.add_ring([](Index) { return true; });
-  }
-  out.n_moving = static_cast<std::int64_t>(moving.members().size()) - out.n_removed;
-  for (const Index v : moving.members()) {
-    if (out.change[at(v)] == Change::keep) out.change[at(v)] = Change::move;
+  if (options.moving_rings > 0) {
+    out.n_moving = let_move(old, is_barred, grown.members(), options.moving_rings, out.change);
   }
   out.is_barred = std::move(is_barred);
   return out;

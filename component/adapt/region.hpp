@@ -39,8 +39,8 @@ enum class Change : std::uint8_t {
 
 struct Region {
   std::vector<Change> change;  ///< [n_vertices]
-  /// [n_vertices]: how far the new mesh goes from the spacing of the old one (0, what is kept) to
-  /// the wanted (1).
+  /// [n_vertices] with RegionOptions::passes, else empty: how far the new mesh goes from the
+  /// spacing of the old one (0, what is kept) to the wanted (1).
   std::vector<double> share;
   std::vector<char> is_barred;  ///< [n_vertices]: fixed, or next to a fixed one
   std::int64_t n_wanted = 0;    ///< vertices whose spacing is outside the tolerance

@@ -40,10 +40,11 @@ std::vector<char> set_free(parallel::Executor& exec, const SpacingField& spacing
                            const Region& region, Joined& joined) {
   std::vector<char> is_free(joined.mesh.vertices.size(), 0);
   std::fill(is_free.begin() + joined.first_inserted, is_free.end(), 1);
-  parallel::for_index(exec, static_cast<std::int64_t>(joined.new_id.size()), kScanGrain,
+  parallel::for_index(exec, static_cast<std::int64_t>(region.change.size()), kScanGrain,
                       [&](std::int64_t v) {
+                        if (region.change[at(v)] == Change::keep) return;
                         const Index id = joined.new_id[at(v)];
-                        if (id == kNone || region.change[at(v)] == Change::keep) return;
+                        if (id == kNone) return;
                         is_free[at(id)] = 1;
                         Vertex& vertex = joined.mesh.vertices[at(id)];
                         vertex.spacing = spacing.at(vertex.x, vertex.y, vertex.z);
@@ -58,62 +59,127 @@ struct Missed {
 };
 
 struct Verdict {
-  bool is_obtuse, is_short;
+  bool is_obtuse = false, is_short = false;
 };
 
-Verdict judge(const SpacingField& spacing, const Mesh& mesh, const Triangle& t) {
+// The side opposite to a corner: its square and, as a vertex whose spacing is to be looked up, its
+// middle.
+struct Side {
+  double square;
+  Vertex middle;
+};
+
+Side side_of(const Mesh& mesh, const Triangle& t, std::size_t k) {
+  const Vec3 from = mesh.position(t.vertex[(k + 1) % 3]), to = mesh.position(t.vertex[(k + 2) % 3]);
+  const Vec3 middle = 0.5 * (from + to);
+  return {(to - from).squaredNorm(), {middle.x(), middle.y(), middle.z(), 0.0}};
+}
+
+bool is_short(double square, double spacing) {
+  const double least = kRelativeEdgeBound * spacing;
+  return square < least * least;
+}
+
+bool is_obtuse(const Mesh& mesh, const Triangle& t) {
   std::array<Vec3, 3> p;
   std::array<Vec3, 3> side;
   for (std::size_t k = 0; k < 3; ++k) p[k] = mesh.position(t.vertex[k]);
   for (std::size_t k = 0; k < 3; ++k) side[k] = p[(k + 2) % 3] - p[(k + 1) % 3];
   // The angle between two sides is obtuse where, head to tail, their product is not negative.
-  const double greatest =
-      std::max({side[0].dot(side[1]), side[1].dot(side[2]), side[2].dot(side[0])});
-  Verdict out{greatest >= 0.0, false};
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3 middle = 0.5 * (p[(k + 2) % 3] + p[(k + 1) % 3]);
-    const double least = kRelativeEdgeBound * spacing.at(middle.x(), middle.y(), middle.z());
-    if (side[k].squaredNorm() < least * least) out.is_short = true;
-  }
-  return out;
+  return std::max({side[0].dot(side[1]), side[1].dot(side[2]), side[2].dot(side[0])}) >= 0.0;
 }
 
-// Of the part, and of the triangles beside it: where a hole is narrow its filling has triangles
-// without a free corner, too.
+struct Found {
+  Index triangle;
+  Verdict verdict;
+};
+
+// Judges triangles of a part. Their sides are looked up together, and once for the two triangles
+// that share one.
+class Judge {
+ public:
+  Judge(const SpacingField& spacing, const Mesh& mesh, const RelaxPart& part,
+        std::vector<Found>& found)
+      : spacing_(spacing), mesh_(mesh), part_(part), found_(found) {}
+  ~Judge() { look_up(); }
+  Judge(const Judge&) = delete;
+  Judge& operator=(const Judge&) = delete;
+
+  void judge(Index tri) {
+    const Triangle& t = mesh_.triangle(tri);
+    if (is_obtuse(mesh_, t)) found_.push_back({tri, {true, false}});
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index other = t.neighbour[k];
+      const bool is_beside = !has_free_corner(other);
+      if (is_beside || tri < other) add_side(tri, other, k);
+      if (is_beside) judge_beside(other);
+    }
+  }
+
+ private:
+  bool has_free_corner(Index tri) const {
+    const auto& v = mesh_.triangle(tri).vertex;
+    return std::any_of(v.begin(), v.end(), [&](Index i) { return part_.is_free[at(i)] != 0; });
+  }
+  // Where a hole is narrow its filling has triangles without a free corner, too.
+  void judge_beside(Index tri) {
+    const Triangle& t = mesh_.triangle(tri);
+    if (is_obtuse(mesh_, t)) found_.push_back({tri, {true, false}});
+    for (std::size_t k = 0; k < 3; ++k) add_side(tri, tri, k);
+  }
+  void add_side(Index tri, Index other, std::size_t k) {
+    const Side side = side_of(mesh_, mesh_.triangle(tri), k);
+    middles_[n_] = side.middle;
+    sides_[n_] = {tri, other, side.square};
+    if (++n_ == kBatch) look_up();
+  }
+  void look_up() {
+    spacing_.evaluate(std::span(middles_).first(n_));
+    for (std::size_t i = 0; i < n_; ++i) {
+      if (!is_short(sides_[i].square, middles_[i].spacing)) continue;
+      for (const Index tri : {sides_[i].triangle, sides_[i].other}) {
+        found_.push_back({tri, {false, true}});
+      }
+    }
+    n_ = 0;
+  }
+
+  static constexpr std::size_t kBatch = 256;  // what a lookup takes at once
+  struct OfTwo {
+    Index triangle, other;
+    double square;
+  };
+  const SpacingField& spacing_;
+  const Mesh& mesh_;
+  const RelaxPart& part_;
+  std::vector<Found>& found_;
+  std::array<Vertex, kBatch> middles_;
+  std::array<OfTwo, kBatch> sides_;
+  std::size_t n_ = 0;
+};
+
+// Of the part, and of the triangles beside it.
 Missed find_missed(parallel::Executor& exec, const SpacingField& spacing, const Mesh& mesh,
                    const RelaxPart& part) {
-  struct Found {
-    Index triangle;
-    Verdict verdict;
-  };
-  const auto is_beside = [&](Index tri) {
-    const auto& v = mesh.triangle(tri).vertex;
-    return std::none_of(v.begin(), v.end(), [&](Index i) { return part.is_free[at(i)] != 0; });
-  };
   auto all = parallel::collect<Found>(
       exec, static_cast<std::int64_t>(part.triangles.size()), kScanGrain,
       [&](std::int64_t begin, std::int64_t end, std::vector<Found>& found) {
-        const auto judge_one = [&](Index tri) {
-          const Verdict verdict = judge(spacing, mesh, mesh.triangle(tri));
-          if (verdict.is_obtuse || verdict.is_short) found.push_back({tri, verdict});
-        };
-        for (std::int64_t i = begin; i < end; ++i) {
-          judge_one(part.triangles[at(i)]);
-          for (const Index other : mesh.triangle(part.triangles[at(i)]).neighbour) {
-            if (is_beside(other)) judge_one(other);
-          }
-        }
+        Judge judge(spacing, mesh, part, found);
+        for (std::int64_t i = begin; i < end; ++i) judge.judge(part.triangles[at(i)]);
       });
   std::sort(all.begin(), all.end(),
             [](const Found& a, const Found& b) { return a.triangle < b.triangle; });
-  all.erase(std::unique(all.begin(), all.end(),
-                        [](const Found& a, const Found& b) { return a.triangle == b.triangle; }),
-            all.end());
   Missed out;
-  for (const Found& found : all) {
-    out.triangles.push_back(found.triangle);
-    out.n_obtuse += found.verdict.is_obtuse ? 1 : 0;
-    out.n_short += found.verdict.is_short ? 1 : 0;
+  for (std::size_t i = 0; i < all.size();) {
+    const Index tri = all[i].triangle;
+    Verdict verdict;
+    for (; i < all.size() && all[i].triangle == tri; ++i) {
+      verdict.is_obtuse |= all[i].verdict.is_obtuse;
+      verdict.is_short |= all[i].verdict.is_short;
+    }
+    out.triangles.push_back(tri);
+    out.n_obtuse += verdict.is_obtuse ? 1 : 0;
+    out.n_short += verdict.is_short ? 1 : 0;
   }
   return out;
 }
@@ -141,6 +207,9 @@ class LocalRemesh {
   void fill(const OldMesh& old);
   std::vector<Index> free_triangles(Index first_filling, std::vector<Index> flipped) const;
   bool release(const Missed& missed);
+  // visit(old id, id), ascending; it may set that vertex free.
+  template <class Visit>
+  void for_each_kept(const Visit& visit);
   Remeshed finish();
 
   Context& context_;
@@ -151,18 +220,17 @@ class LocalRemesh {
   Mesh mesh_;
   RelaxPart part_;
   Index n_survivors_ = 0;  // of the old vertices, when the holes were emptied
-  // Old ids of the vertices that are not free, ascending. Nothing changes their order, so that the
-  // i-th vertex that is not free is kept_[i].
-  std::vector<Index> kept_;
+  // By old vertex: whether it is not free. Nothing changes the order of those that are not.
+  std::vector<char> is_kept_;
 };
 
 void LocalRemesh::fill(const OldMesh& old) {
   const Phase phase(context_.monitor, "refine", region_.n_removed);
-  const Holes holes = make_holes(context_, input_.surface, old, region_);
-  const std::vector<TileMesh> fillings = fill_holes(
-      context_, {input_.surface, input_.spacing, options_.refine, old, region_}, holes.holes);
+  const std::vector<Hole> holes = make_holes(context_, input_.surface, old, region_);
+  const std::vector<TileMesh> fillings =
+      fill_holes(context_, {input_.surface, input_.spacing, options_.refine, old, region_}, holes);
   Joined joined = join(context_.exec, old, holes, fillings);
-  report_.n_regions = static_cast<std::int64_t>(holes.holes.size());
+  report_.n_regions = static_cast<std::int64_t>(holes.size());
   n_survivors_ = joined.first_inserted;
   report_.n_removed = old.mesh.n_vertices() - joined.first_inserted;
   std::vector<char> is_free = set_free(context_.exec, input_.spacing, region_, joined);
@@ -181,8 +249,9 @@ void LocalRemesh::fill(const OldMesh& old) {
   }
   part_ = {std::move(is_free), {}, std::move(joined.at_vertex)};
   part_.triangles = free_triangles(joined.first_filling, std::move(flipped));
-  for (Index v = 0; v < old.mesh.n_vertices(); ++v) {
-    if (region_.change[at(v)] == Change::keep) kept_.push_back(v);
+  is_kept_.resize(region_.change.size());
+  for (std::size_t v = 0; v < is_kept_.size(); ++v) {
+    is_kept_[v] = region_.change[v] == Change::keep ? 1 : 0;
   }
 }
 
@@ -223,21 +292,17 @@ bool LocalRemesh::release(const Missed& missed) {
     std::sort(near.begin(), near.end());
     near.erase(std::unique(near.begin(), near.end()), near.end());
   }
-  std::vector<Index> still_kept;
-  std::size_t next_kept = 0;
-  for (Index v = 0; v < mesh_.n_vertices(); ++v) {
-    if (is_free[at(v)] != 0) continue;
-    const Index old_id = kept_[next_kept++];
-    if (region_.is_barred[at(old_id)] == 0 && std::binary_search(near.begin(), near.end(), v)) {
-      is_free[at(v)] = 1;
-      Vertex& vertex = mesh_.vertices[at(v)];
-      vertex.spacing = input_.spacing.at(vertex.x, vertex.y, vertex.z);
-    } else {
-      still_kept.push_back(old_id);
+  bool has_released = false;
+  for_each_kept([&](Index old_id, Index v) {
+    if (region_.is_barred[at(old_id)] != 0 || !std::binary_search(near.begin(), near.end(), v)) {
+      return;
     }
-  }
-  const bool has_released = still_kept.size() < kept_.size();
-  kept_ = std::move(still_kept);
+    has_released = true;
+    is_kept_[at(old_id)] = 0;
+    is_free[at(v)] = 1;
+    Vertex& vertex = mesh_.vertices[at(v)];
+    vertex.spacing = input_.spacing.at(vertex.x, vertex.y, vertex.z);
+  });
   return has_released;
 }
 
@@ -263,17 +328,27 @@ Remeshed LocalRemesh::run(const OldMesh& old) {
   return finish();
 }
 
+template <class Visit>
+void LocalRemesh::for_each_kept(const Visit& visit) {
+  Index v = 0;
+  for (std::size_t old_id = 0; old_id < is_kept_.size(); ++old_id) {
+    if (is_kept_[old_id] == 0) continue;
+    while (part_.is_free[at(v)] != 0) ++v;
+    visit(static_cast<Index>(old_id), v++);
+  }
+}
+
 Remeshed LocalRemesh::finish() {
-  report_.n_kept = static_cast<std::int64_t>(kept_.size());
+  report_.changed_area = area(mesh_, part_.triangles) / input_.surface.area();
+  std::vector<Index> new_id(region_.change.size(), kNone);
+  report_.n_kept = 0;
+  for_each_kept([&](Index old_id, Index v) {
+    new_id[at(old_id)] = v;
+    ++report_.n_kept;
+  });
   report_.n_moved = n_survivors_ - report_.n_kept;
   report_.n_inserted = mesh_.n_vertices() - n_survivors_;
-  report_.changed_area = area(mesh_, part_.triangles) / input_.surface.area();
-  Remeshed out{std::move(mesh_), std::vector<Index>(region_.change.size(), kNone)};
-  std::size_t next_kept = 0;
-  for (Index v = 0; v < out.mesh.n_vertices(); ++v) {
-    if (part_.is_free[at(v)] == 0) out.new_id[at(kept_[next_kept++])] = v;
-  }
-  return out;
+  return {std::move(mesh_), std::move(new_id)};
 }
 
 }  // namespace

@@ -28,10 +28,49 @@ std::vector<Index> triangles_around(const Mesh& mesh, const TriangleAtVertex& at
   return found;
 }
 
+// The place of an id among ascending ones, or kNone; without branches, which no one could foretell.
 Index local_id(const std::vector<Index>& sorted, Index global) {
-  const auto found = std::lower_bound(sorted.begin(), sorted.end(), global);
-  return found != sorted.end() && *found == global ? static_cast<Index>(found - sorted.begin())
-                                                   : kNone;
+  if (sorted.empty()) return kNone;
+  const Index* first = sorted.data();
+  for (std::size_t n = sorted.size(); n > 1;) {
+    const std::size_t half = n / 2;
+    first += first[half] <= global ? half : 0;
+    n -= half;
+  }
+  return *first == global ? static_cast<Index>(first - sorted.data()) : kNone;
+}
+
+// Ids of the border, ascending, and the local id of each corner of the triangles.
+struct LocalCorners {
+  std::vector<Index> border;
+  std::vector<std::array<Index, 3>> of;
+};
+
+LocalCorners local_corners(const Mesh& mesh, const std::vector<Index>& triangles,
+                           const std::vector<Index>& free_vertices) {
+  LocalCorners out;
+  out.of.reserve(triangles.size());
+  out.border.reserve(3 * triangles.size());
+  for (const Index tri : triangles) {
+    auto& local = out.of.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Index v = mesh.triangle(tri).vertex[k];
+      local[k] = local_id(free_vertices, v);
+      if (local[k] == kNone) out.border.push_back(v);
+    }
+  }
+  std::sort(out.border.begin(), out.border.end());
+  out.border.erase(std::unique(out.border.begin(), out.border.end()), out.border.end());
+  const auto n_free = static_cast<Index>(free_vertices.size());
+  for (std::size_t i = 0; i < triangles.size(); ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      Index& local = out.of[i][k];
+      if (local == kNone) {
+        local = n_free + local_id(out.border, mesh.triangle(triangles[i]).vertex[k]);
+      }
+    }
+  }
+  return out;
 }
 
 }  // namespace
@@ -78,17 +117,12 @@ ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex
                              const std::vector<Index>& free_vertices) {
   ExtractedPatch out;
   out.origin.triangles = triangles_around(mesh, at_vertex, free_vertices);
-  std::vector<Index> border;
-  for (const Index tri : out.origin.triangles) {
-    for (const Index v : mesh.triangle(tri).vertex) {
-      if (local_id(free_vertices, v) == kNone) border.push_back(v);
-    }
-  }
-  std::sort(border.begin(), border.end());
-  border.erase(std::unique(border.begin(), border.end()), border.end());
+  const LocalCorners corners = local_corners(mesh, out.origin.triangles, free_vertices);
+  const std::vector<Index>& border = corners.border;
   out.origin.vertices = free_vertices;
   out.origin.vertices.insert(out.origin.vertices.end(), border.begin(), border.end());
   out.patch.n_free = static_cast<Index>(free_vertices.size());
+  out.patch.vertices.reserve(out.origin.vertices.size());
   for (const Index v : out.origin.vertices) out.patch.vertices.push_back(mesh.vertices[at(v)]);
   // Ascending ids: the fixed ones come first.
   for (std::size_t i = 0; i < border.size() && mesh.fixed.has_vertex(border[i]); ++i) {
@@ -97,13 +131,12 @@ ExtractedPatch extract_patch(const Mesh& mesh, const TriangleAtVertex& at_vertex
       out.patch.fixed_edges.push_back({static_cast<Index>(i), static_cast<Index>(j)});
     }
   }
-  for (const Index tri : out.origin.triangles) {
+  out.patch.triangles.reserve(out.origin.triangles.size());
+  for (std::size_t i = 0; i < out.origin.triangles.size(); ++i) {
+    const Index tri = out.origin.triangles[i];
     const Triangle& source = mesh.triangle(tri);
-    Triangle t{};
+    Triangle t{corners.of[i], {}};
     for (std::size_t k = 0; k < 3; ++k) {
-      const Index free_id = local_id(free_vertices, source.vertex[k]);
-      t.vertex[k] =
-          free_id != kNone ? free_id : out.patch.n_free + local_id(border, source.vertex[k]);
       t.neighbour[k] = local_id(out.origin.triangles, source.neighbour[k]);
       if (t.neighbour[k] == kNone) {
         t.neighbour[k] = ~static_cast<Index>(out.origin.border.size());

@@ -250,11 +250,7 @@ std::int64_t restore_around(parallel::Executor& exec, const Ellipsoid& surface, 
       [&](std::int64_t begin, std::int64_t end, std::vector<Index>& found) {
         for (std::int64_t i = begin; i < end; ++i) {
           const Index tri = written[static_cast<std::size_t>(i)];
-          bool needs_flip = false;
-          for (int side = 0; side < 3 && !needs_flip; ++side) {
-            needs_flip = is_illegal(mesh, surface, tri, side);
-          }
-          if (needs_flip) found.push_back(tri);
+          if (has_illegal_side(mesh, surface, tri)) found.push_back(tri);
         }
       });
   return restore_delaunay(mesh, surface, seeds, &written);

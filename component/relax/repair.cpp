@@ -2,6 +2,7 @@
 #include "relax/repair.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "relax/hill_climb.hpp"
@@ -76,10 +77,10 @@ class Repairer {
 bool repair_patch(const Target& target, const RepairOptions& options, Patch& patch) {
   const Repairer repairer(target, options);
   const double before = patch.worst().first;
-  std::pair<double, Patch> best{before, patch};
+  std::pair<double, Patch> best{before, {}};  // without a patch until there is a better one
   Patch moved = patch;
   const double score = repairer.settle(moved, 0);
-  if (score > before + kLeastGain) best = {score, moved};
+  if (score > before + kLeastGain) best = {score, std::move(moved)};
   if (best.first < options.enough && options.change_topology) repairer.try_topology(patch, best);
   if (best.first <= before + kLeastGain) return false;
   patch = std::move(best.second);

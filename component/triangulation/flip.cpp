@@ -36,14 +36,15 @@ void relink(Mesh& mesh, Index tri, Index from, Index to, Index neighbour) {
   t.neighbour[at(side)] = neighbour;
 }
 
+constexpr double kAcuteMargin = 1e-6;  // of the cosine, times the lengths of the sides
+
 /// Whether all angles are below a right angle by a margin far above rounding. Two such triangles
 /// share no illegal side: the angles opposite to it sum to less than two right angles.
 bool is_clearly_acute(const Mesh& mesh, const Triangle& t) {
-  constexpr double kMargin = 1e-6;  // of the cosine, times the lengths of the sides
   const Vec3 a = mesh.position(t.vertex[0]);
   const Vec3 ab = mesh.position(t.vertex[1]) - a, ac = mesh.position(t.vertex[2]) - a;
   const double bb = ab.squaredNorm(), cc = ac.squaredNorm(), bc = ab.dot(ac);
-  const double least = kMargin * (bb + cc);
+  const double least = kAcuteMargin * (bb + cc);
   return bc > least && bb - bc > least && cc - bc > least;
 }
 
@@ -114,12 +115,37 @@ namespace {
 
 constexpr std::int64_t kScanGrain = 8192;  // triangles a task: about 0.5 ms
 
-bool has_illegal_side(const Mesh& mesh, const Ellipsoid& surface, Index tri) {
-  return is_illegal(mesh, surface, tri, 0) || is_illegal(mesh, surface, tri, 1) ||
-         is_illegal(mesh, surface, tri, 2);
+// Whether the angle at `apex` towards the ends of a side is clearly below a right one, see
+// is_clearly_acute().
+bool is_clearly_sharp(const Vec3& apex, const Vec3& from, const Vec3& to) {
+  const Vec3 a = from - apex, b = to - apex;
+  return a.dot(b) > kAcuteMargin * (a.squaredNorm() + b.squaredNorm());
+}
+
+// Whether the two angles opposite to each side are clearly sharp, so that no side is illegal.
+bool is_clearly_legal(const Mesh& mesh, const Triangle& t) {
+  const std::array<Vec3, 3> p = {mesh.position(t.vertex[0]), mesh.position(t.vertex[1]),
+                                 mesh.position(t.vertex[2])};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const std::size_t u = (k + 1) % 3, v = (k + 2) % 3;
+    const auto& other = mesh.triangle(t.neighbour[k]).vertex;
+    // The corner that the two do not share, without a branch.
+    const Index far = static_cast<Index>(std::int64_t{other[0]} + other[1] + other[2] -
+                                         t.vertex[u] - t.vertex[v]);
+    if (!is_clearly_sharp(p[k], p[u], p[v]) || !is_clearly_sharp(mesh.position(far), p[u], p[v])) {
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace
+
+bool has_illegal_side(const Mesh& mesh, const Ellipsoid& surface, Index tri) {
+  if (is_clearly_legal(mesh, mesh.triangle(tri))) return false;
+  return is_illegal(mesh, surface, tri, 0) || is_illegal(mesh, surface, tri, 1) ||
+         is_illegal(mesh, surface, tri, 2);
+}
 
 std::int64_t restore_delaunay_everywhere(parallel::Executor& exec, Mesh& mesh,
                                          const Ellipsoid& surface, std::vector<Index>* touched) {

@@ -37,6 +37,9 @@ bool can_flip(const Mesh& mesh, Index tri, int side);
 /// the index on a sphere, by predicates::prefers_flip on an ellipsoid.
 bool is_illegal(const Mesh& mesh, const Ellipsoid& surface, Index tri, int side);
 
+/// The same for any of its three sides; quick where all angles around it are clearly acute.
+bool has_illegal_side(const Mesh& mesh, const Ellipsoid& surface, Index tri);
+
 /// Flips until no side that can be reached from the sides of the seed triangles is illegal
 /// (Lawson 1977). Returns the number of flips; `touched`, when given, receives the ids of flipped
 /// triangles, with repetition. On an ellipsoid the flips stop at 64 a triangle of the mesh at the
