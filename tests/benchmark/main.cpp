@@ -239,8 +239,8 @@ bool run_remesh(const Arguments& arguments) {
   return is_good;
 }
 
-/// Weights between grids; false when the bits of one depend on the threads. Rates are of processor
-/// seconds on one thread, of wall time on more, as in add_rates().
+/// Weights between grids; false when the bits of one depend on the threads. Rates are of the
+/// program's processor seconds on one thread, of wall time on more, as in add_rates().
 bool run_remap(const Arguments& arguments) {
   bool is_good = true;
   std::string name, digest;
@@ -251,8 +251,8 @@ bool run_remap(const Arguments& arguments) {
                  {"sources", timing.n_sources},   {"targets", timing.n_targets},
                  {"overlaps", timing.n_overlaps}, {"digest", timing.digest}};
     const auto n = static_cast<double>(timing.n_overlaps);
-    for (const PhaseTime& phase : timing.phases) {
-      const double seconds = timing.threads == 1 ? phase.cpu_s : phase.wall_s;
+    for (const RemapTiming::PhaseSeconds& phase : timing.phases) {
+      const double seconds = timing.threads == 1 ? phase.user_s : phase.wall_s;
       line[phase.phase + "_s"] = seconds;
     }
     const auto sum = [&](std::initializer_list<const char*> phases) {

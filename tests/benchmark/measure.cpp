@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: BSD-3-Clause
 #include "benchmark/measure.hpp"
 
-#include <sys/resource.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -10,9 +8,9 @@
 #include <fstream>
 #include <map>
 #include <thread>
-#include <utility>
 #include <vector>
 
+#include "benchmark/system_times.hpp"
 #include "benchmark/yardstick.hpp"
 #include "lifecycle/generate.hpp"
 #include "lifecycle/inputs.hpp"
@@ -52,35 +50,6 @@ double process_mib(const std::string& key) {
   }
   return 0.0;
 }
-
-/// Seconds that the kernel has worked for this process so far.
-double system_s() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_stime.tv_sec) +
-         1e-6 * static_cast<double>(usage.ru_stime.tv_usec);
-}
-
-/// Below this the kernel's share is not told apart: it counts by ticks of some milliseconds.
-constexpr double kShortestSplitS = 0.1;
-
-/// What the kernel did during each phase: mostly giving memory when it is first touched. Heard from
-/// the progress, which tells begin and end of every phase.
-class SystemTimes {
- public:
-  void note(const std::string& phase) {
-    const double now_s = system_s();
-    const auto [found, is_new] = begin_and_end_s_.try_emplace(phase, now_s, now_s);
-    if (!is_new) found->second.second = now_s;
-  }
-  double seconds(const std::string& phase) const {
-    const auto& [begin_s, end_s] = begin_and_end_s_.at(phase);
-    return end_s - begin_s;
-  }
-
- private:
-  std::map<std::string, std::pair<double, double>> begin_and_end_s_;
-};
 
 std::string first_value(const char* path, const std::string& key) {
   std::ifstream file(path);
@@ -147,8 +116,7 @@ void add_times(const Monitor& monitor, const SystemTimes& system_times, Json& li
       if (phase.phase != name) continue;
       line[key + "_s"] = rounded(phase.wall_s);
       line[key + "_cpu_s"] = rounded(phase.cpu_s);
-      const double kernel_s = phase.cpu_s < kShortestSplitS ? 0.0 : system_times.seconds(key);
-      line[key + "_user_s"] = rounded(std::max(phase.cpu_s - kernel_s, 0.0));
+      line[key + "_user_s"] = rounded(system_times.user_s(phase));
       if (key == "limit") line["limit_nodes"] = phase.items;
     }
   }
@@ -194,7 +162,7 @@ Json measure(const Case& benchmark_case, int threads, const std::string& folder)
   SystemTimes system_times;
   const auto note = [&](const Progress& progress) {
     peak_mib[progress.phase] = note_peak();
-    system_times.note(progress.phase);
+    system_times.note(progress);
   };
   Monitor monitor(note, {}, nullptr);
   Context context{exec, monitor};

@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "benchmark/fresh_mesh.hpp"
+#include "benchmark/system_times.hpp"
 #include "core/hash.hpp"
 #include "dual/build.hpp"
 #include "remap/transfer.hpp"
@@ -102,13 +103,17 @@ RemapTiming timed_pair(const Pair& pair, int threads, int rounds) {
   out.n_sources = pair.source.n_cells();
   out.n_targets = pair.target.n_cells();
   for (int round = 0; round < rounds; ++round) {
-    Monitor monitor;
+    SystemTimes system_times;
+    Monitor monitor([&](const Progress& progress) { system_times.note(progress); }, {}, nullptr);
     run_phases(exec, monitor, pair, out);
-    if (round == 0) out.phases = monitor.phases();
+    if (round == 0) out.phases.resize(monitor.phases().size());
     for (std::size_t k = 0; k < out.phases.size(); ++k) {
       const PhaseTime& now = monitor.phases()[k];
-      out.phases[k].wall_s = std::min(out.phases[k].wall_s, now.wall_s);
-      out.phases[k].cpu_s = std::min(out.phases[k].cpu_s, now.cpu_s);
+      const RemapTiming::PhaseSeconds seconds{now.phase, now.wall_s, system_times.user_s(now)};
+      RemapTiming::PhaseSeconds& least = out.phases[k];
+      if (round == 0) least = seconds;
+      least.wall_s = std::min(least.wall_s, seconds.wall_s);
+      least.user_s = std::min(least.user_s, seconds.user_s);
     }
   }
   return out;

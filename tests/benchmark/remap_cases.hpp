@@ -5,17 +5,20 @@
 #include <string>
 #include <vector>
 
-#include "core/progress.hpp"
-
 namespace delos::benchmark {
 
 /// What one pair of grids costs on one number of threads.
 struct RemapTiming {
+  struct PhaseSeconds {
+    std::string phase;
+    double wall_s = 0.0;
+    double user_s = 0.0;  ///< of the processor, without the kernel's
+  };
   std::string name;
   int threads = 1;
   std::int64_t n_sources = 0, n_targets = 0, n_overlaps = 0;
-  std::vector<PhaseTime> phases;  ///< the least of each over the rounds
-  std::string digest;             ///< of overlaps, weights and fields: the same for any threads
+  std::vector<PhaseSeconds> phases;  ///< the least of each over the rounds
+  std::string digest;                ///< of overlaps, weights and fields: the same for any threads
 };
 
 /// Grids of 60 and 30 km, 160 000 and 650 000 cells: "coarsen" carries from the fine one to the
