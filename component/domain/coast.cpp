@@ -83,10 +83,17 @@ double turn_rad(const Grid& grid, const Shoreline& a, const Shoreline& b) {
   return elementary::atan2(before.cross(after).dot(corner) / corner.norm(), before.dot(after));
 }
 
+double height_over_chord(const Grid& grid, Index before, Index corner, Index after) {
+  const Vec3& from = grid.vertex_position[at(before)];
+  const Vec3 chord = grid.vertex_position[at(after)] - from;
+  return (grid.vertex_position[at(corner)] - from).cross(chord).norm() / chord.norm();
+}
+
 // The corners of all loops, one loop after the other.
 struct Loops {
   std::vector<double> turn_rad;    // at the end of each edge
   std::vector<Index> corner;       // the vertex there
+  std::vector<double> height;      // of the corner over the chord of those beside it
   std::vector<std::size_t> first;  // corner of each loop, and the end
 };
 
@@ -108,6 +115,8 @@ Loops walk_loops(const Grid& grid, const std::vector<Shoreline>& lines) {
       is_done[here] = 1;
       loops.turn_rad.push_back(turn_rad(grid, lines[here], lines[after(here)]));
       loops.corner.push_back(lines[here].to);
+      loops.height.push_back(
+          height_over_chord(grid, lines[here].from, lines[here].to, lines[after(here)].to));
     }
   }
   loops.first.push_back(loops.corner.size());
@@ -137,10 +146,11 @@ void judge_loop(std::span<const double> turn, CoastReport& report, std::int64_t&
 }
 
 void judge_corners(const Grid& grid, const Loops& loops, CoastReport& report) {
-  double sum_rad = 0.0;
+  double sum_rad = 0.0, sum_height = 0.0;
   std::int64_t n_stairs = 0;
   for (std::size_t i = 0; i < loops.corner.size(); ++i) {
     sum_rad += std::abs(loops.turn_rad[i]);
+    sum_height += loops.height[i];
     const Corner corner{180.0 - loops.turn_rad[i] * kDegPerRad,
                         grid.vertex_lon_lat[at(loops.corner[i])]};
     if (corner.angle_deg < report.sharpest_sea.angle_deg) report.sharpest_sea = corner;
@@ -153,6 +163,7 @@ void judge_corners(const Grid& grid, const Loops& loops, CoastReport& report) {
   }
   const auto n = static_cast<double>(loops.corner.size());
   report.mean_turn_deg = sum_rad / n * kDegPerRad;
+  report.step_m = sum_height / n * grid.surface.scale_m();
   report.stair_share = static_cast<double>(n_stairs) / n;
 }
 

@@ -24,7 +24,12 @@ struct CoastReport {
   /// along the coast and wet of the cells across it, over the length.
   double offset_m = 0.0;
   double mean_turn_deg = 0.0;  ///< from one edge to the next; 60 on hexagons, 0 where it is smooth
-  /// Share of the corners that turn against both their neighbours: the steps of a stair.
+  /// How high the steps are: mean distance of a corner from the chord between the two beside it.
+  /// On regular hexagons half a side, 0.29 of the spacing.
+  double step_m = 0.0;
+  /// Share of the corners that turn against both their neighbours. Each corner turns by an angle of
+  /// a triangle, hence no coast is without; a straight one has 1 along a row of cells, where its
+  /// length is least, 0 across rows, and 2 sqrt(3) - 3 = 0.46 over all directions.
   double stair_share = 0.0;
   /// Where corners in succession turn the same way by more than 150 degrees: tips of the sea, and
   /// of the land, one cell wide.

@@ -19,6 +19,10 @@ constexpr double kMostCosine = 0.78801075360672196;   // 38 degrees
 constexpr double kLeastSide = 0.75, kMostSide = 1.35;
 // Of the way to where an edge would lie on the coast: both its cells move, and each has several.
 constexpr double kFitDamping = 0.7;
+// Cells across the coast part to so many spacings, by so much of what is missing: the farther they
+// are apart, the nearer are the two rows of corners between them, and the smoother is the coast.
+// What is wanted lies below kMostSide; more has a smoother coast that lies farther off (README).
+constexpr double kAcross = 1.3, kPartingShare = 0.25;
 constexpr int kStepHalvings = 3;  // of a step that is too long
 
 class CoastFit {
@@ -74,6 +78,10 @@ class CoastFit {
       before = other;
     });
     visit(before, first);
+  }
+
+  double spacing_between(Index a, Index b) const {
+    return 0.5 * (mesh_.vertices[at(a)].spacing + mesh_.vertices[at(b)].spacing);
   }
 
   bool is_sea(Index vertex) const { return is_sea_[at(vertex)] != 0; }
@@ -138,15 +146,17 @@ class CoastFit {
   }
 
   // Where the coast is straight, the edge to a neighbour across it lies too far in the sea by what
-  // their wet shares are above one, times their distance.
+  // their wet shares are above one, times their distance. Away from it, too, where it is near.
   Vec3 shift_of(Index vertex) const {
     Vec3 sum = Vec3::Zero();
     int n = 0;
     neighbours(vertex, [&](Index other) {
       if (is_sea(other) == is_sea(vertex)) return;
-      const Vec3 to_land =
-          (is_sea(vertex) ? 1.0 : -1.0) * (mesh_.position(other) - mesh_.position(vertex));
-      sum += (wet_[at(vertex)] + wet_[at(other)] - 1.0) * to_land;
+      const Vec3 across = mesh_.position(other) - mesh_.position(vertex);
+      const double to_land = is_sea(vertex) ? 1.0 : -1.0;
+      const double wanted = kAcross * spacing_between(vertex, other);
+      sum += to_land * (wet_[at(vertex)] + wet_[at(other)] - 1.0) * across;
+      sum -= kPartingShare * (wanted / across.norm() - 1.0) * across;
       ++n;
     });
     return n == 0 ? sum : Vec3(kFitDamping / n * sum);
@@ -173,7 +183,7 @@ class CoastFit {
       const double pp = p.norm(), qq = q.norm(), rr = r.norm();
       const auto [low, high] =
           std::minmax({p.dot(q) / (pp * qq), -p.dot(r) / (pp * rr), q.dot(r) / (qq * rr)});
-      const double side = pp / (0.5 * (here.spacing + mesh_.vertices[at(a)].spacing));
+      const double side = pp / spacing_between(vertex, a);
       least = std::min({least, low / kLeastCosine, (1.0 - high) / (1.0 - kMostCosine),
                         side / kLeastSide, kMostSide / side});
     };

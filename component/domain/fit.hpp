@@ -30,12 +30,13 @@ struct FitReport {
 };
 
 /// Moves the vertices on both sides of the coast so that the Voronoi edges between them, which lie
-/// midway, come to lie on it, and those next to them so that they have room. Triangles keep their
-/// corners: a move is taken as far as every triangle at the vertex keeps its angles within 38 to 82
-/// degrees and its sides within 0.75 to 1.35 of the spacing, or what it had. The mesh was Delaunay
-/// and well centred and stays so; fixed vertices stay where they are. The spacing at the vertices
-/// is that of before. One vertex after the other on one thread, wet shares by all: the same bits
-/// for any number of threads. Advances the caller's phase by the cells looked at.
+/// midway, come to lie on it, apart from each other to make these edges' steps low, and those next
+/// to them so that they have room. Triangles keep their corners: a move is taken as far as every
+/// triangle at the vertex keeps its angles within 38 to 82 degrees and its sides within 0.75
+/// to 1.35 of the spacing, or what it had. The mesh was Delaunay and well centred and stays so;
+/// fixed vertices stay where they are. The spacing at the vertices is that of before. One vertex
+/// after the other on one thread, wet shares by all: the same bits for any number of threads.
+/// Advances the caller's phase by the cells looked at.
 FitReport fit_to_coast(Context& context, const SeaToFit& sea, const FitOptions& options,
                        Mesh& mesh);
 

@@ -115,6 +115,7 @@ ReportSection section_of(const domain::CoastReport& coast) {
   add("length_over_line", coast.length_m / coast.line_m);
   add("offset_m", coast.offset_m);
   add("mean_turn_deg", coast.mean_turn_deg);
+  add("step_m", coast.step_m);
   add("stair_share", coast.stair_share);
   add("n_sea_tips", coast.n_sea_tips);
   add("n_land_tips", coast.n_land_tips);

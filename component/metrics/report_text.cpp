@@ -164,10 +164,10 @@ void add_region(const ReportSection& section, std::vector<std::string>& lines) {
 void add_coast(const ReportSection& section, std::vector<std::string>& lines) {
   if (real(section, "n_edges") == 0.0) return;
   lines.push_back(line(
-      "coast       %.0f km, %.3f of its line, %.1f km off; %.0f tips; stairs %.0f %%",
+      "coast       %.0f km, %.3f of its line, %.1f km off; %.0f tips; steps %.1f km",
       1e-3 * real(section, "length_m"), real(section, "length_over_line"),
       1e-3 * real(section, "offset_m"), real(section, "n_sea_tips") + real(section, "n_land_tips"),
-      1e2 * real(section, "stair_share")));
+      1e-3 * real(section, "step_m")));
 }
 
 /// Of the section "constraints"; bad triangles miss the certificate.

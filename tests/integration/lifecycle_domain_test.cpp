@@ -66,10 +66,12 @@ TEST_CASE("a fitted coast lies nearer to that of the data, in a grid that is sti
         "600 km", kEmbedded + "domain: {fit_coast: " + fit + "}\nrequire: {well_centred: true}\n"));
   };
   const Product plain = product_of("false"), fitted = product_of("true");
-  const auto offset_m = [](const Product& product) {
-    return value_of<double>(product.report, "coast", "offset_m");
+  const auto coast = [](const Product& product, const char* key) {
+    return value_of<double>(product.report, "coast", key);
   };
-  CHECK(offset_m(fitted) < 0.8 * offset_m(plain));
+  CHECK(coast(fitted, "offset_m") < 0.8 * coast(plain, "offset_m"));
+  CHECK(coast(fitted, "step_m") < 0.9 * coast(plain, "step_m"));
+  CHECK(coast(fitted, "length_over_line") < 0.95 * coast(plain, "length_over_line"));
   CHECK(value_of<std::int64_t>(fitted.report, "fit_coast", "n_moved") > 100);
   CHECK(fitted.report.quality.relative_edge_min.value > 0.65);
   expect_sound(*fitted.grid);

@@ -58,6 +58,9 @@ TEST_CASE("the coast of half a globe is a stair about the equator without tips")
   CHECK(coast.mean_turn_deg > 50.0);
   CHECK(coast.mean_turn_deg < 70.0);
   CHECK(coast.stair_share > 0.2);
+  // Half a side of a hexagon.
+  const double side_m = coast.length_m / static_cast<double>(coast.n_edges);
+  CHECK(coast.step_m == doctest::Approx(0.5 * side_m).epsilon(0.1));
   CHECK(coast.n_sea_tips == 0);
   CHECK(coast.n_land_tips == 0);
   CHECK(coast.offset_m == 0.0);

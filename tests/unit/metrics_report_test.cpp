@@ -142,14 +142,15 @@ TEST_CASE("the domain and given lines are on the screen") {
       std::string::npos);
   report.sections.push_back({"coast", {{"n_edges", std::int64_t{0}}}});
   CHECK(report_text(report).find("coast ") == std::string::npos);
-  report.sections.back().values = {
-      {"n_edges", std::int64_t{9014}},   {"length_m", 3.11434e8},
-      {"length_over_line", 1.2406},      {"offset_m", 13278.5},
-      {"stair_share", 0.4028},           {"n_sea_tips", std::int64_t{161}},
-      {"n_land_tips", std::int64_t{256}}};
-  CHECK(report_text(report).find(
-            "\ncoast       311434 km, 1.241 of its line, 13.3 km off; 417 tips; stairs 40 %\n") !=
-        std::string::npos);
+  report.sections.back().values = {{"n_edges", std::int64_t{9014}},
+                                   {"length_m", 3.11434e8},
+                                   {"length_over_line", 1.2406},
+                                   {"offset_m", 13278.5},
+                                   {"step_m", 17297.0},
+                                   {"n_sea_tips", std::int64_t{161}},
+                                   {"n_land_tips", std::int64_t{256}}};
+  CHECK(report_text(report).find("\ncoast       311434 km, 1.241 of its line, 13.3 km off; 417 "
+                                 "tips; steps 17.3 km\n") != std::string::npos);
 }
 
 TEST_CASE("layers are a line of the screen") {
