@@ -56,7 +56,11 @@ Array<double> normal_velocities(parallel::Executor& exec, const Grid& grid,
       result[at(edge)] = 0.0;  // no flow through a border
       return;
     }
-    result[at(edge)] = 0.5 * edge_normal(grid, edge).dot(cells[at(c)] + cells[at(d)]);
+    const bool has_first = cells[at(c)].allFinite(), has_second = cells[at(d)].allFinite();
+    // NaN where neither has one.
+    const Vec3 sum = has_first == has_second ? Vec3(cells[at(c)] + cells[at(d)])
+                                             : 2.0 * cells[at(has_first ? c : d)];
+    result[at(edge)] = 0.5 * edge_normal(grid, edge).dot(sum);
   });
   return result;
 }

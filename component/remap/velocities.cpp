@@ -21,6 +21,7 @@ struct Twin {
 
 Twin twin_of(const Overlaps& overlaps, const GridPair& grids, std::int64_t edge) {
   const auto [c, d] = grids.target.cells_on_edge[at(edge)];
+  if (d == kNone) return {};
   if (!overlaps.is_copy(c) || !overlaps.is_copy(d)) return {};
   const Index from = overlaps.source[at(overlaps.offsets[at(c)])];
   const Index to = overlaps.source[at(overlaps.offsets[at(d)])];
@@ -130,9 +131,10 @@ Array<double> transfer_velocities(Context& context, const Transfer& transfer, co
   const std::int64_t n_sources = grids.source.n_edges(), n_targets = grids.target.n_edges();
   DELOS_CHECK(n_levels >= 1, ErrorKind::input, "n_levels = ", n_levels,
               ": an edge has at least one value.");
-  DELOS_CHECK(!transfer.overlaps().is_open, ErrorKind::input,
-              "one of the grids has a border, and velocities at its edges can't be made from those "
-              "around them: carry velocities between the grids before they are culled.");
+  DELOS_CHECK(!transfer.overlaps().is_open || options.route == VelocityRoute::vectors,
+              ErrorKind::input,
+              "one of the grids has a border, where a flow has no potentials that these routes "
+              "know: carry its velocities by vectors.");
   DELOS_CHECK(static_cast<std::int64_t>(normal.size()) == n_levels * n_sources, ErrorKind::input,
               "a transfer of velocities from ", n_sources, " edges of ", n_levels,
               " values was given ", normal.size(), " values: they belong to another grid.");

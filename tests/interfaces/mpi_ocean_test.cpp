@@ -95,6 +95,13 @@ TEST_CASE("an ocean over processes is the serial one, its layers and its host's 
     CHECK(std::count_if(moved.begin(), moved.end(), [](double x) { return std::isnan(x); }) ==
           2 * transfer->n_unmapped());
   }
+  const auto velocity = component.grid().gather(
+      component.transfer_velocity(filled(former.local().edge_position(), 1)), Location::edge);
+  if (transfer) {
+    std::vector<double> expected(velocity.size());
+    transfer->apply_velocity(filled(transfer->from().edge_position(), 1), expected);
+    CHECK(same_bits(velocity, expected));
+  }
   component.finalize();
 }
 

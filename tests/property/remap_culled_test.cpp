@@ -6,8 +6,8 @@
 #include <map>
 #include <utility>
 
-#include "domain/cull.hpp"
 #include "remap/transfer.hpp"
+#include "support/culled_grids.hpp"
 #include "support/sample_fields.hpp"
 
 using namespace delos;
@@ -32,13 +32,7 @@ bool in_other(const Vec3& p) { return p.z() < 0.5 && std::abs(p.x() - 0.3) > 0.0
 template <class Keep>
 Domain domain_of(Grid whole, bool is_culled, Keep&& keep) {
   Domain domain{std::move(whole), {}, is_culled};
-  if (!is_culled) return domain;
-  std::vector<Index> cells;
-  for (std::size_t i = 0; i < domain.whole.cell_position.size(); ++i) {
-    if (keep(domain.whole.cell_position[i])) cells.push_back(static_cast<Index>(i));
-  }
-  parallel::Executor exec(1);
-  domain.left = domain::cull(exec, domain.whole, cells);
+  if (is_culled) domain.left = samples::culled(domain.whole, keep);
   return domain;
 }
 

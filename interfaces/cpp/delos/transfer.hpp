@@ -90,7 +90,10 @@ class DELOS_API Transfer {
              const TransferOptions& options = {}) const;
   /// Velocities along the edges' normals: [from().n_edges(), n_levels] to [to().n_edges(),
   /// n_levels]. Edges between cells that did not change keep theirs to the last bit, with the sign
-  /// of the normal. Error(input) when a size does not fit or a grid has a border.
+  /// of the normal. With a border nothing flows through the border's edges, what from() has there
+  /// counts in its cells, and edges between two cells that from() does not cover get NaN (the
+  /// normalization is not used). Error(input) when a size does not fit, or when a grid has a border
+  /// and the route is not VelocityRoute::vectors.
   void apply_velocity(std::span<const double> from_edges, std::span<double> to_edges,
                       VelocityRoute route = VelocityRoute::vectors,
                       const TransferOptions& options = {}) const;
