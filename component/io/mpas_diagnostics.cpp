@@ -3,8 +3,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <limits>
+
+#include "core/elementary.hpp"
 
 namespace delos::mpas {
 namespace {
@@ -35,18 +36,25 @@ Extent sides_of_triangle(const Grid& grid, std::int64_t vertex) {
   return range;
 }
 
-// Plane angles in radians; nothing is seen when a corner is missing.
-Extent angles_of_triangle(const Grid& grid, std::int64_t vertex) {
-  Extent range;
+/// What the three plane angles of a triangle are told by.
+struct Corners {
+  bool exist = false;       // none is missing
+  double twice_area = 0.0;  // the sine of each angle times its sides
+  Extent cosine;            // the cosine of each times its sides
+};
+
+Corners corners_of_triangle(const Grid& grid, std::int64_t vertex) {
   const auto& cells = grid.cells_on_vertex[at(vertex)];
-  if (std::find(cells.begin(), cells.end(), kNone) != cells.end()) return range;
-  for (std::size_t k = 0; k < 3; ++k) {
-    const Vec3& corner = grid.cell_position[at(cells[k])];
-    const Vec3 u = grid.cell_position[at(cells[(k + 1) % 3])] - corner;
-    const Vec3 v = grid.cell_position[at(cells[(k + 2) % 3])] - corner;
-    range.include(std::atan2(u.cross(v).norm(), u.dot(v)));
+  if (std::find(cells.begin(), cells.end(), kNone) != cells.end()) return {};
+  const Vec3 &a = grid.cell_position[at(cells[0])], &b = grid.cell_position[at(cells[1])],
+             &c = grid.cell_position[at(cells[2])];
+  const Vec3 ab = b - a, bc = c - b, ca = a - c;
+  Corners corners{true, ab.cross(bc).norm(), {}};
+  corners.cosine.max = -std::numeric_limits<double>::infinity();
+  for (const double cosine : {-ca.dot(ab), -ab.dot(bc), -bc.dot(ca)}) {
+    corners.cosine.include(cosine);
   }
-  return range;
+  return corners;
 }
 
 }  // namespace
@@ -67,11 +75,17 @@ double triangle_quality(const Grid& grid, std::int64_t vertex) {
 }
 
 double triangle_angle_quality(const Grid& grid, std::int64_t vertex) {
-  return angles_of_triangle(grid, vertex).ratio();
+  const Corners corners = corners_of_triangle(grid, vertex);
+  if (!corners.exist) return 0.0;
+  // Of equal sines times sides the greater cosine times sides has the smaller angle.
+  const double smallest = elementary::atan2(corners.twice_area, corners.cosine.max);
+  const double largest = elementary::atan2(corners.twice_area, corners.cosine.min);
+  return largest > 0.0 ? smallest / largest : 0.0;
 }
 
 bool is_obtuse(const Grid& grid, std::int64_t vertex) {
-  return angles_of_triangle(grid, vertex).max > 0.5 * kPi;
+  const Corners corners = corners_of_triangle(grid, vertex);
+  return corners.exist && corners.cosine.min < 0.0;
 }
 
 }  // namespace delos::mpas

@@ -13,6 +13,8 @@
 #include <string>
 #include <vector>
 
+#include "io/write_back.hpp"
+
 namespace delos::netcdf {
 
 enum class Type {
@@ -162,6 +164,10 @@ class Writer {
   void attribute(VariableId variable, const std::string& name,
                  std::span<const std::int32_t> values);
 
+  /// Of a long file: who writes it reads it again at once. Else it goes to the disk while it is
+  /// made and leaves the memory (io/write_back.hpp).
+  void keep_in_memory() { is_kept_ = true; }
+
   /// Error(output) when the variables (but compressed ones) need more space than the disk has.
   void end_definitions();
 
@@ -192,6 +198,7 @@ class Writer {
   template <class T>
   void put_whole(VariableId variable, std::span<const T> values);
   void check(int status, const std::string& doing);
+  double needed_bytes() const;
   void check_free_space() const;
   std::string name_of(VariableId variable) const;
 
@@ -199,6 +206,8 @@ class Writer {
   Format format_;
   int handle_ = -1;
   bool has_failed_ = false;
+  bool is_kept_ = false;
+  WriteBack write_back_;
   std::vector<Dimension> dimensions_;
   std::vector<Variable> variables_;
   std::vector<bool> is_compressed_;

@@ -22,6 +22,10 @@ constexpr std::uintmax_t kFullDiskBytes = 1U << 20;
 /// each; blocks of several variables in turn are read again to their ends, so more is no better.
 constexpr std::size_t kBufferBytes = std::size_t{256} << 10;
 
+/// Files from here on leave the page cache while they are made. Shorter ones stay in it for who
+/// reads them next.
+constexpr double kLongFileBytes = 256.0 * 1024.0 * 1024.0;
+
 constexpr const char* kFillName = "_FillValue";
 
 int put_values(int h, int v, const std::size_t* start, const std::size_t* count, const double* in) {
@@ -169,24 +173,31 @@ void Writer::attribute(VariableId variable, const std::string& name,
         "attribute '" + name + "' can't be written" + name_of(variable));
 }
 
-void Writer::check_free_space() const {
+double Writer::needed_bytes() const {
   // Compressed variables count as if they were not: HDF5 may crash when it meets a full disk.
-  double needed_bytes = 0.0;
-  bool is_compressed = false;
-  for (std::size_t v = 0; v < variables_.size(); ++v) {
-    needed_bytes += static_cast<double>(variables_[v].n_values()) *
-                    static_cast<double>(size_bytes(variables_[v].type));
-    is_compressed = is_compressed || is_compressed_[v];
+  double bytes = 0.0;
+  for (const Variable& variable : variables_) {
+    bytes +=
+        static_cast<double>(variable.n_values()) * static_cast<double>(size_bytes(variable.type));
   }
-  const double free_bytes = space_for_file_bytes(path_);
-  DELOS_CHECK(needed_bytes <= free_bytes, ErrorKind::output, path_, ": disk full: it needs ",
-              is_compressed ? "up to " : "", needed_bytes / 1e6, " MB where ", free_bytes / 1e6,
+  return bytes;
+}
+
+void Writer::check_free_space() const {
+  const bool is_compressed =
+      std::find(is_compressed_.begin(), is_compressed_.end(), true) != is_compressed_.end();
+  const double bytes = needed_bytes(), free_bytes = space_for_file_bytes(path_);
+  DELOS_CHECK(bytes <= free_bytes, ErrorKind::output, path_, ": disk full: it needs ",
+              is_compressed ? "up to " : "", bytes / 1e6, " MB where ", free_bytes / 1e6,
               " MB may be written. Make room, raise `ulimit -f` or choose another folder.");
 }
 
 void Writer::end_definitions() {
   check_free_space();
   check(nc_enddef(handle_), "the header can't be written");
+  // HDF5 goes back to its tables.
+  const bool may_leave = format_ != Format::netcdf4 && !is_kept_;
+  if (may_leave && needed_bytes() >= kLongFileBytes) write_back_.watch(path_);
 }
 
 template <class T>
@@ -196,6 +207,8 @@ void Writer::put_any(VariableId variable, std::span<const std::size_t> start,
               values.size(), " values given for a block of ", product(count), ".");
   if (values.empty()) return;
   check(put_values(handle_, variable.id, start.data(), count.data(), values.data()),
+        "can't write" + name_of(variable));
+  check(write_back_.advance(static_cast<std::int64_t>(values.size_bytes())),
         "can't write" + name_of(variable));
 }
 

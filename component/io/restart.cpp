@@ -83,6 +83,7 @@ void put(netcdf::Writer& file, netcdf::VariableId variable, const RestartArray& 
 void write_netcdf(const std::string& path, const std::string& version,
                   std::span<const RestartArray> arrays) {
   netcdf::Writer file(path, netcdf::Format::cdf5);
+  file.keep_in_memory();  // for the checksum
   std::vector<netcdf::VariableId> variables;
   for (const RestartArray& array : arrays) {
     DELOS_CHECK(length_of(array) > 0, ErrorKind::internal, path, ": the restart array '",
