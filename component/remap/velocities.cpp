@@ -2,6 +2,8 @@
 #include "remap/velocities.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 #include "remap/potential.hpp"
 #include "remap/stream.hpp"
@@ -47,21 +49,33 @@ Array<double> by_vectors(parallel::Executor& exec, const Transfer& transfer, con
   return normal_velocities(exec, grids.target, vectors);
 }
 
-// The part of a flow without divergence, on the target, and what it leaves, on the source.
-struct Parts {
-  Array<double> solenoidal, rest;
+// The flow of one level on the source, and how it goes.
+struct LevelFlow {
+  std::span<const double> normal;
+  VelocityRoute route;
+  const TransferOptions& options;
 };
 
-Parts parts_of(Context& context, const GridPair& grids, std::span<const double> normal) {
+// The part of a flow without divergence, on the target, and what it leaves, on the source; and the
+// stream functions of both.
+struct Parts {
+  Array<double> solenoidal, rest;
+  Array<double> psi, target_psi;
+};
+
+Parts parts_of(Context& context, const Overlaps& overlaps, const GridPair& grids,
+               std::span<const double> normal) {
   parallel::Executor& exec = context.exec;
-  const StreamFunction stream = stream_function(context, grids.source, normal);
+  StreamFunction stream = stream_function(context, grids.source, normal);
   Array<double> rest = flow_of(exec, grids.source, stream.psi);
   parallel::for_index(exec, grids.source.n_edges(), kEdgeGrain, [&](std::int64_t edge) {
     rest[at(edge)] = normal[at(edge)] - rest[at(edge)];
   });
-  return {flow_of(exec, grids.target,
-                  transfer_stream_function(exec, grids.source, grids.target, stream.psi)),
-          std::move(rest)};
+  Array<double> psi =
+      overlaps.is_open
+          ? transfer_stream_function(exec, overlaps, grids.source, grids.target, stream.psi)
+          : transfer_stream_function(exec, grids.source, grids.target, stream.psi);
+  return {flow_of(exec, grids.target, psi), std::move(rest), std::move(stream.psi), std::move(psi)};
 }
 
 void add_flow(parallel::Executor& exec, std::span<const double> more, std::span<double> flow) {
@@ -69,19 +83,43 @@ void add_flow(parallel::Executor& exec, std::span<const double> more, std::span<
                       [&](std::int64_t edge) { flow[at(edge)] += more[at(edge)]; });
 }
 
+// Where a coast's psi has changed, the flow beside it has to.
+void drop_changed(parallel::Executor& exec, const GridPair& grids, const Parts& parts,
+                  std::span<Twin> twins) {
+  parallel::for_index(exec, static_cast<std::int64_t>(twins.size()), kEdgeGrain,
+                      [&](std::int64_t edge) {
+                        Twin& twin = twins[at(edge)];
+                        if (twin.edge == kNone) return;
+                        const auto [v, w] = grids.target.vertices_on_edge[at(edge)];
+                        auto [a, b] = grids.source.vertices_on_edge[at(twin.edge)];
+                        if (twin.sign < 0.0) std::swap(a, b);
+                        if (parts.target_psi[at(v)] != parts.psi[at(a)] ||
+                            parts.target_psi[at(w)] != parts.psi[at(b)]) {
+                          twin = {};
+                        }
+                      });
+}
+
+// `twins` lose what can't be kept.
 Array<double> by_stream_function(Context& context, const Transfer& transfer, const GridPair& grids,
-                                 std::span<const double> normal, const TransferOptions& options) {
-  Parts parts = parts_of(context, grids, normal);
-  add_flow(context.exec, by_vectors(context.exec, transfer, grids, parts.rest, options),
-           parts.solenoidal);
+                                 const LevelFlow& flow, std::span<Twin> twins) {
+  parallel::Executor& exec = context.exec;
+  const Overlaps& overlaps = transfer.overlaps();
+  Parts parts = parts_of(context, overlaps, grids, flow.normal);
+  Array<double> rest = by_vectors(exec, transfer, grids, parts.rest, flow.options);
+  if (overlaps.is_open) {
+    drop_changed(exec, grids, parts, twins);
+    for (double& value : rest) value = std::isnan(value) ? 0.0 : value;  // between bare cells
+  }
+  add_flow(exec, rest, parts.solenoidal);
   return std::move(parts.solenoidal);
 }
 
 // Good to second order, but for the divergence.
-Array<double> by_potentials(Context& context, const GridPair& grids,
+Array<double> by_potentials(Context& context, const Overlaps& overlaps, const GridPair& grids,
                             std::span<const double> normal) {
   parallel::Executor& exec = context.exec;
-  Parts parts = parts_of(context, grids, normal);
+  Parts parts = parts_of(context, overlaps, grids, normal);
   const Array<double> chi = transfer_potential(exec, grids.source, grids.target,
                                                velocity_potential(grids.source, parts.rest));
   add_flow(exec, gradient_of(exec, grids.target, chi), parts.solenoidal);
@@ -111,16 +149,16 @@ void copy_unchanged(parallel::Executor& exec, std::span<const Twin> twins,
 
 // On all edges of the target, as if none were the source's.
 Array<double> by_route(Context& context, const Transfer& transfer, const GridPair& grids,
-                       std::span<const double> normal, const VelocityOptions& options) {
-  switch (options.route) {
+                       const LevelFlow& flow, std::span<Twin> twins) {
+  switch (flow.route) {
     case VelocityRoute::stream_function:
-      return by_stream_function(context, transfer, grids, normal, options.transfer);
+      return by_stream_function(context, transfer, grids, flow, twins);
     case VelocityRoute::helmholtz:
-      return by_potentials(context, grids, normal);
+      return by_potentials(context, transfer.overlaps(), grids, flow.normal);
     case VelocityRoute::vectors:
       break;
   }
-  return by_vectors(context.exec, transfer, grids, normal, options.transfer);
+  return by_vectors(context.exec, transfer, grids, flow.normal, flow.options);
 }
 
 }  // namespace
@@ -131,10 +169,10 @@ Array<double> transfer_velocities(Context& context, const Transfer& transfer, co
   const std::int64_t n_sources = grids.source.n_edges(), n_targets = grids.target.n_edges();
   DELOS_CHECK(n_levels >= 1, ErrorKind::input, "n_levels = ", n_levels,
               ": an edge has at least one value.");
-  DELOS_CHECK(!transfer.overlaps().is_open || options.route == VelocityRoute::vectors,
+  DELOS_CHECK(!transfer.overlaps().is_open || options.route != VelocityRoute::helmholtz,
               ErrorKind::input,
-              "one of the grids has a border, where a flow has no potentials that these routes "
-              "know: carry its velocities by vectors.");
+              "one of the grids has a border, where no velocity potential is known: carry the flow "
+              "by its stream function, or by vectors.");
   DELOS_CHECK(static_cast<std::int64_t>(normal.size()) == n_levels * n_sources, ErrorKind::input,
               "a transfer of velocities from ", n_sources, " edges of ", n_levels,
               " values was given ", normal.size(), " values: they belong to another grid.");
@@ -149,8 +187,10 @@ Array<double> transfer_velocities(Context& context, const Transfer& transfer, co
     parallel::for_index(exec, n_sources, kEdgeGrain, [&](std::int64_t edge) {
       from[at(edge)] = normal[at(edge * n_levels + level)];
     });
-    Array<double> moved = by_route(context, transfer, grids, from, options);
-    copy_unchanged(exec, twins, from, moved);
+    Array<Twin> kept = twins;
+    Array<double> moved =
+        by_route(context, transfer, grids, {from, options.route, options.transfer}, kept);
+    copy_unchanged(exec, kept, from, moved);
     if (options.route == VelocityRoute::helmholtz) {
       const auto wanted = carried_divergence(exec, transfer, grids, from, options.transfer);
       impose_divergence(context, grids.target, {wanted, is_free}, moved);

@@ -82,10 +82,15 @@ DELOS_C_API int delos_transfer_apply(const delos_transfer* transfer, const doubl
                                      int64_t n_from_values, double* to, int64_t n_to_values,
                                      const delos_transfer_options* options);
 /* Velocities along the edges' normals, [n_edges, n_levels] of each grid. Edges between cells that
- * did not change keep theirs to the last bit, with the sign of the normal. With a border nothing
- * flows through the border's edges, what the first grid has there counts in its cells, and edges
- * between two cells that it does not cover get NaN. DELOS_ERROR_INPUT when a size does not fit, or
- * when a grid has a border and the route is not DELOS_VELOCITY_VECTORS. */
+ * did not change keep theirs to the last bit, with the sign of the normal. DELOS_ERROR_INPUT when a
+ * size does not fit. With a border nothing flows through the border's edges of the second grid, and
+ * - DELOS_VELOCITY_HELMHOLTZ is DELOS_ERROR_INPUT;
+ * - by vectors, what the first grid has at its border's edges counts in its cells, and edges
+ * between two cells that it does not cover get NaN;
+ * - by the stream function, which is one number on each connected coast, a flow without divergence
+ *   that goes through no border gets none, in cells that the first grid does not cover too (there
+ *   is no NaN); what flows between two coasts that both grids have stays. Where a coast is new, or
+ *   lost a passage, edges beside it change even between cells that did not. */
 DELOS_C_API int delos_transfer_apply_velocity(const delos_transfer* transfer, const double* from,
                                               int64_t n_from_values, double* to,
                                               int64_t n_to_values,

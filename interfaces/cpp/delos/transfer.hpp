@@ -90,10 +90,15 @@ class DELOS_API Transfer {
              const TransferOptions& options = {}) const;
   /// Velocities along the edges' normals: [from().n_edges(), n_levels] to [to().n_edges(),
   /// n_levels]. Edges between cells that did not change keep theirs to the last bit, with the sign
-  /// of the normal. With a border nothing flows through the border's edges, what from() has there
-  /// counts in its cells, and edges between two cells that from() does not cover get NaN (the
-  /// normalization is not used). Error(input) when a size does not fit, or when a grid has a border
-  /// and the route is not VelocityRoute::vectors.
+  /// of the normal. Error(input) when a size does not fit. With a border (the normalization is not
+  /// used):
+  /// - Nothing flows through the border's edges of to(). VelocityRoute::helmholtz is Error(input).
+  /// - By vectors, what from() has at its border's edges counts in its cells, and edges between two
+  ///   cells that from() does not cover get NaN.
+  /// - By the stream function, which is one number on each connected coast, a flow without
+  ///   divergence that goes through no border gets none, in cells that from() does not cover too
+  ///   (there is no NaN); what flows between two coasts that both grids have stays. Where a coast
+  ///   is new, or lost a passage, edges beside it change even between cells that did not.
   void apply_velocity(std::span<const double> from_edges, std::span<double> to_edges,
                       VelocityRoute route = VelocityRoute::vectors,
                       const TransferOptions& options = {}) const;
