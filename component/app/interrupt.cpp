@@ -20,6 +20,8 @@ extern "C" void on_signal(int signal) {
 const std::atomic<bool>& watch_for_interrupt() {
   std::signal(SIGINT, on_signal);
   std::signal(SIGTERM, on_signal);
+  // A file that grows beyond `ulimit -f` is then an error of the write, and leaves nothing behind.
+  std::signal(SIGXFSZ, SIG_IGN);
   return interrupted;
 }
 

@@ -5,7 +5,7 @@
 namespace delos::app {
 
 /// Lets Ctrl-C (SIGINT) and SIGTERM set the flag that is returned; a second signal ends the
-/// process at once.
+/// process at once. SIGXFSZ is ignored from then on.
 const std::atomic<bool>& watch_for_interrupt();
 
 }  // namespace delos::app

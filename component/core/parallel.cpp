@@ -10,17 +10,43 @@
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
+#include <algorithm>
+
 namespace delos::parallel {
 
+namespace {
+
+/// A host may ask for any number. oneTBB starts as many, whatever the machine has: a thousand make
+/// nothing faster, and it ends the process where the system refuses one.
+int most_threads() {
+  constexpr int kMostPerProcessor = 4, kAlwaysAllowed = 64;
+  return std::max(kAlwaysAllowed, kMostPerProcessor * tbb::info::default_concurrency());
+}
+
+using Leave = std::unique_ptr<tbb::global_control>;
+
+/// More threads than processors, as tests ask for, need oneTBB's leave; otherwise the number of its
+/// workers is none of ours. The least of all leaves counts, and oneTBB prints when an arena is
+/// larger than it, so all ask for the same.
+Leave leave_for(int wanted) {
+  if (wanted <= tbb::info::default_concurrency()) return nullptr;
+  return std::make_unique<tbb::global_control>(tbb::global_control::max_allowed_parallelism,
+                                               static_cast<std::size_t>(most_threads()));
+}
+
+/// What there is leave for: a host may allow fewer than there are processors.
+int allowed_threads(int wanted) {
+  if (wanted <= 0) wanted = tbb::info::default_concurrency();
+  const auto allowed = static_cast<std::int64_t>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  return static_cast<int>(std::min<std::int64_t>({wanted, most_threads(), allowed}));
+}
+
+}  // namespace
+
 struct Executor::Impl {
-  explicit Impl(int n) : n_threads(n), arena(n) {
-    // More threads than processors, as tests ask for, need oneTBB's leave; otherwise the number of
-    // its workers is none of ours.
-    if (n > tbb::info::default_concurrency()) {
-      oversubscription = std::make_unique<tbb::global_control>(
-          tbb::global_control::max_allowed_parallelism, static_cast<std::size_t>(n));
-    }
-  }
+  explicit Impl(int wanted)
+      : oversubscription(leave_for(wanted)), n_threads(allowed_threads(wanted)), arena(n_threads) {}
   /// run(context) by the threads of the arena.
   template <class Run>
   void execute(const Run& run) {
@@ -33,8 +59,8 @@ struct Executor::Impl {
     // So that a waiting thread does not pick up unrelated work of the host.
     arena.execute([&] { tbb::this_task_arena::isolate([&] { run(context); }); });
   }
+  Leave oversubscription;
   int n_threads;
-  std::unique_ptr<tbb::global_control> oversubscription;
   tbb::task_arena arena;
 };
 
@@ -57,8 +83,7 @@ struct InOrder {
 
 }  // namespace
 
-Executor::Executor(int n_threads)
-    : impl_(std::make_unique<Impl>(n_threads > 0 ? n_threads : tbb::info::default_concurrency())) {}
+Executor::Executor(int n_threads) : impl_(std::make_unique<Impl>(n_threads)) {}
 
 Executor::~Executor() = default;
 

@@ -139,8 +139,11 @@ struct Cutter::Impl {
 
 Cutter::Impl::Impl(const Grid& of, std::span<const Index> parts, const CutOptions& how)
     : grid(of), part_of_cell(parts), options(how) {
-  DELOS_CHECK(options.n_halo_layers >= 1, ErrorKind::config,
-              "halo_layers = ", options.n_halo_layers, ": must be >= 1.");
+  // A stencil has a few; each costs an entry of the offsets, whether it has cells or not.
+  constexpr int kMaxHaloLayers = 1000;
+  DELOS_CHECK(options.n_halo_layers >= 1 && options.n_halo_layers <= kMaxHaloLayers,
+              ErrorKind::config, "halo_layers = ", options.n_halo_layers,
+              ": must be between 1 and ", kMaxHaloLayers, ".");
   DELOS_CHECK(static_cast<std::int64_t>(parts.size()) == grid.n_cells(), ErrorKind::config,
               "there are parts of ", parts.size(), " cells for a grid of ", grid.n_cells(),
               ": give one for each cell.");

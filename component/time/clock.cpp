@@ -103,9 +103,11 @@ int Clock::add_alarm(const AlarmOptions& options) {
 }
 
 const Alarm& Clock::alarm(int id) const {
-  DELOS_CHECK(id >= 0 && id < n_alarms(), ErrorKind::state, "a clock has no alarm ",
-              std::to_string(id), ": ids are those that add_alarm gave, 0 to ",
-              std::to_string(n_alarms() - 1), ".");
+  DELOS_CHECK(
+      id >= 0 && id < n_alarms(), ErrorKind::state, "a clock has no alarm ", std::to_string(id),
+      n_alarms() == 0
+          ? ": add_alarm was not called."
+          : ": ids are those that add_alarm gave, 0 to " + std::to_string(n_alarms() - 1) + ".");
   return alarms_[static_cast<std::size_t>(id)];
 }
 

@@ -37,6 +37,10 @@ remap::TransferOptions engine(const TransferOptions& options) {
 std::int64_t levels_of(const TransferOptions& options) {
   DELOS_CHECK(options.n_levels >= 1, delos::ErrorKind::input, "n_levels = ", options.n_levels,
               ": a cell or an edge has at least one value");
+  constexpr std::int64_t kMaxLevels = 1'000'000;  // times 7e8 cells stays within 64 bits
+  DELOS_CHECK(options.n_levels <= kMaxLevels, delos::ErrorKind::input,
+              "n_levels = ", options.n_levels, ": a cell or an edge has at most ", kMaxLevels,
+              " values");
   return options.n_levels;
 }
 

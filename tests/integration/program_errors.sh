@@ -137,6 +137,21 @@ else
   echo "skipped full disk: only root can mount a small one"
 fi
 
+# Every kind of file under `ulimit -f` (KiB): an error, not a signal, and nothing left.
+config "$uniform" 'output: {report: false, graph: false, formats: [mpas]}'
+"$delos" mesh c.yaml -o from --quiet
+mkdir limited
+for kind in gmsh.msh jigsaw.msh vtu scrip.nc fesom ugrid_triangles.nc; do
+  (ulimit -f 20; "$delos" convert from/grid.mpas.nc "limited/x.$kind" >/dev/null 2>stderr.txt)
+  if [ $? != 5 ] || [ -n "$(ls -A limited)" ] || [ "$(grep -c '^delos: error: ' stderr.txt)" != 1 ]; then
+    failures=$((failures + 1))
+    echo "FAILED $kind beyond ulimit -f: left '$(ls -A limited)'"
+    cat stderr.txt
+  else
+    echo "ok     $kind beyond ulimit -f"
+  fi
+done
+
 "$delos" mesh >/dev/null 2>&1
 [ $? = 2 ] || { failures=$((failures + 1)); echo "FAILED no argument: exit status not 2"; }
 "$delos" mesh c.yaml --set threads >/dev/null 2>&1

@@ -284,6 +284,10 @@ TEST_CASE("sizes and grids that do not fit a transfer are refused with both gene
   CHECK(message_of(delos::ErrorKind::input, [&] {
           transfer.apply({}, {}, {.n_levels = 0});
         }).find("n_levels = 0") != std::string::npos);
+  // Whose product with the cells wraps round.
+  CHECK(message_of(delos::ErrorKind::input, [&] {
+          transfer.apply({}, {}, {.n_levels = std::int64_t{1} << 62});
+        }).find("at most") != std::string::npos);
 
   const delos::Grid smaller = delos::generate(delos::Config::from_text(
       "surface: {radius: 1000 km}\nsizing: {sources: [{type: constant, spacing: 300 km}]}\n"

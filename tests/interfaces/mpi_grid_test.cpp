@@ -314,7 +314,7 @@ TEST_CASE("a failure on the generating process is thrown by all, with its text")
   all_throw("config: there are 1 cell weights", small, how);
   how.cell_weight = [](const delos::Grid&) { return std::vector<double>(); };
   all_throw("config: cell_weight gave no weights", small, how);
-  all_throw("config: halo_layers = 0: must be >= 1", small, options(0));
+  all_throw("config: halo_layers = 0: must be between 1 and", small, options(0));
   all_throw("config: root = -1: must be a rank", small, options(1, -1));
   all_throw("config: root = " + std::to_string(n_ranks()), small, options(1, n_ranks()));
   // What is no Error comes back as it was thrown, and as Error(internal) elsewhere.

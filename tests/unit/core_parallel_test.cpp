@@ -4,11 +4,23 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/error.hpp"
 #include "core/hash.hpp"
 
 using namespace delos;
+
+TEST_CASE("a number of threads far beyond the machine's is cut, not started") {
+  parallel::Executor all(0), none(-1), few(8), many(1'000'000);
+  CHECK(none.n_threads() == all.n_threads());
+  CHECK(few.n_threads() == 8);
+  CHECK(many.n_threads() >= 64);
+  CHECK(many.n_threads() <= std::max(64, 4 * all.n_threads()));
+  std::atomic<int> n_done = 0;
+  many.run_blocks(1000, [&](std::int64_t) { ++n_done; });
+  CHECK(n_done == 1000);
+}
 
 TEST_CASE("counts become positions, for any length, grain and number of threads") {
   constexpr std::int64_t kUnset = -77;  // the last value is not read

@@ -35,15 +35,15 @@ inline constexpr int kEsmfNotFound = 41;  ///< ESMF_RC_NOT_FOUND, an absent item
 DELOS_API int esmf_code(ErrorKind kind);
 
 /// One instance; instances share nothing. Used by one thread at a time. It prints nothing, writes
-/// no file but the restart file, and has threads in initialize(realize) and read_restart only, in
-/// an arena of its own.
+/// no file but the restart file, and has threads in initialize(realize), read_restart and, with a
+/// section `remesh`, run only, in an arena of its own.
 ///
 /// A call in the wrong order is Error(state) that says which call is expected; a phase that is
 /// done already does nothing when it is repeated; what throws leaves the component as it was.
 class DELOS_API Component {
  public:
-  /// Error(config). The callbacks of the options are called in initialize(realize); what
-  /// options.cancel points to must live until then.
+  /// Error(config). The callbacks of the options are called in initialize(realize), read_restart
+  /// and, with a section `remesh`, run; what options.cancel points to must live that long.
   explicit Component(const Config& config, const GenerateOptions& options = {});
   Component(Component&& other) noexcept;
   Component& operator=(Component&& other) noexcept;

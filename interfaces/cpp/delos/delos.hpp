@@ -5,6 +5,10 @@
 //   const auto config = delos::Config::from_file("world_ocean.yaml");
 //   const delos::Grid grid = delos::generate(config);
 //   for (double area_m2 : grid.cell_area_m2()) ...
+//
+// An object that was moved from may be assigned to or destroyed, nothing else. netCDF, below all
+// that reads or writes files, serves one thread of a process at a time: threads that call delos at
+// once agree on whose turn it is where their configurations name files or they write some.
 #include "delos/clock.hpp"      // IWYU pragma: export
 #include "delos/component.hpp"  // IWYU pragma: export
 #include "delos/config.hpp"     // IWYU pragma: export

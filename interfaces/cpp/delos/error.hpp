@@ -23,7 +23,8 @@ enum class ErrorKind {
 DELOS_API const char* to_string(ErrorKind kind);
 
 /// what() says what went wrong (value and unit), where (file, key, id, lon/lat) and what to do.
-/// The only exception that leaves a public function, but for std::bad_alloc.
+/// The only exception that leaves a public function, but for std::bad_alloc and what a callback of
+/// the host's threw.
 class DELOS_API Error : public std::runtime_error {
  public:
   Error(ErrorKind kind, const std::string& message);  ///< of the library, or of a host's callback

@@ -24,7 +24,8 @@ enum class LogLevel { debug, info, warning, error };
 
 struct GenerateOptions {
   /// Threads of an arena of its own; 0 = what the configuration says (all, by default). The grid
-  /// does not depend on it, to the last bit.
+  /// does not depend on it, to the last bit. Of many more than the machine has, some are not
+  /// started (four a processor, 64 at least, are).
   int threads = 0;
   /// Called from any thread, one call at a time, at most ten times a second.
   std::function<void(const Progress&)> progress = {};

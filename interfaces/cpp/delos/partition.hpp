@@ -32,7 +32,7 @@ enum class CellWork {
 struct PartitionOptions {
   std::int64_t n_parts = 1;
   PartitionMethod method = PartitionMethod::automatic;
-  int halo_layers = 1;  ///< >= 1; one is enough for the tangential velocity at owned edges
+  int halo_layers = 1;  ///< 1 to 1000; one is enough for the tangential velocity at owned edges
   /// Work of each cell: [n_cells], finite, >= 0; empty = as `work` says.
   std::vector<double> cell_weight = {};
   CellWork work = CellWork::automatic;
