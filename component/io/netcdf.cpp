@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "io/netcdf_turn.hpp"
 #include "io/netcdf_types.hpp"
 
 namespace delos::netcdf {
@@ -26,7 +27,14 @@ constexpr std::array<TypePair, 11> kTypes = {{{Type::int8, NC_BYTE, "int8", 1},
                                               {Type::float64, NC_DOUBLE, "float64", 8},
                                               {Type::text, NC_CHAR, "text", 1}}};
 
+std::recursive_mutex& one_at_a_time() {
+  static std::recursive_mutex mutex;
+  return mutex;
+}
+
 }  // namespace
+
+Turn::Turn() : lock_(one_at_a_time()) {}
 
 Type type_of(nc_type code) {
   for (const TypePair& pair : kTypes) {

@@ -9,6 +9,7 @@
 #include "core/error.hpp"
 #include "io/names.hpp"
 #include "io/netcdf_classic.hpp"
+#include "io/netcdf_turn.hpp"
 #include "io/netcdf_types.hpp"
 
 namespace delos::netcdf {
@@ -134,6 +135,7 @@ int get_block(int h, int v, const std::size_t* start, const std::size_t* count, 
 }  // namespace
 
 Reader::Reader(const std::string& path) : path_(path) {
+  const Turn turn;
   check_file(path);
   check_read(nc_open(path.c_str(), NC_NOWRITE, &handle_), path, "");
   try {
@@ -151,6 +153,7 @@ Reader::Reader(Reader&& other) noexcept
       variables_(std::move(other.variables_)) {}
 
 Reader::~Reader() {
+  const Turn turn;
   if (handle_ >= 0) nc_close(handle_);  // nothing was written: nothing can be lost
 }
 
@@ -216,6 +219,7 @@ const Variable& Reader::variable(const std::string& name) const {
 }
 
 int Reader::attribute_owner(const std::string& variable) const {
+  const Turn turn;
   if (variable.empty()) return NC_GLOBAL;
   this->variable(variable);
   int id = -1;
@@ -224,6 +228,7 @@ int Reader::attribute_owner(const std::string& variable) const {
 }
 
 std::vector<std::string> Reader::attribute_names(const std::string& variable) const {
+  const Turn turn;
   const int id = attribute_owner(variable);
   int n = 0;
   check_read(nc_inq_varnatts(handle_, id, &n), path_, variable);
@@ -238,6 +243,7 @@ std::vector<std::string> Reader::attribute_names(const std::string& variable) co
 
 std::optional<std::string> Reader::text_attribute(const std::string& variable,
                                                   const std::string& name) const {
+  const Turn turn;
   const int id = attribute_owner(variable);
   nc_type code = NC_NAT;
   std::size_t length = 0;
@@ -257,6 +263,7 @@ std::optional<std::string> Reader::text_attribute(const std::string& variable,
 
 std::optional<std::vector<double>> Reader::number_attribute(const std::string& variable,
                                                             const std::string& name) const {
+  const Turn turn;
   const int id = attribute_owner(variable);
   nc_type code = NC_NAT;
   std::size_t length = 0;
@@ -270,6 +277,7 @@ std::optional<std::vector<double>> Reader::number_attribute(const std::string& v
 
 std::optional<Type> Reader::attribute_type(const std::string& variable,
                                            const std::string& name) const {
+  const Turn turn;
   nc_type code = NC_NAT;
   const int owner = attribute_owner(variable);
   if (nc_inq_atttype(handle_, owner, name.c_str(), &code) != NC_NOERR) return std::nullopt;
@@ -298,6 +306,7 @@ std::vector<std::int64_t> Reader::read_int64(const std::string& variable) const 
 }
 
 std::string Reader::read_text(const std::string& variable) const {
+  const Turn turn;
   const Variable& info = this->variable(variable);
   DELOS_CHECK(info.type == Type::text, ErrorKind::input, path_, ": variable '", variable,
               "' holds ", to_string(info.type), " values where text is expected.");
@@ -321,6 +330,7 @@ void Reader::read(const std::string& variable, std::span<const std::size_t> star
 template <class T>
 void Reader::read_any(const std::string& variable, std::span<const std::size_t> start,
                       std::span<const std::size_t> count, std::span<T> out) const {
+  const Turn turn;
   const Variable& info = this->variable(variable);
   DELOS_CHECK(info.type != Type::text && info.type != Type::other, ErrorKind::input, path_,
               ": variable '", variable, "' holds no numbers. Name a numeric variable.");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "io/netcdf_turn.hpp"
 #include "io/netcdf_types.hpp"
 
 namespace delos::netcdf {
@@ -76,6 +77,7 @@ double space_for_file_bytes(const std::string& path) {
 }  // namespace
 
 Writer::Writer(const std::string& path, Format format) : path_(path), format_(format) {
+  const Turn turn;
   const int mode = NC_CLOBBER | (format == Format::netcdf4 ? NC_NETCDF4 : NC_64BIT_DATA);
   std::size_t buffer_bytes = kBufferBytes;
   check(nc__create(path.c_str(), mode, 0, &buffer_bytes, &handle_), "can't be created");
@@ -83,6 +85,7 @@ Writer::Writer(const std::string& path, Format format) : path_(path), format_(fo
 }
 
 Writer::~Writer() {
+  const Turn turn;
   // After a failed write, closing an HDF5 file fails again, and netCDF-C 4.9.0 then follows a bad
   // pointer in its report of open objects. The process is worth more than the handle.
   const bool may_crash = has_failed_ && format_ == Format::netcdf4;
@@ -102,6 +105,7 @@ void Writer::check(int status, const std::string& doing) {
 }
 
 DimensionId Writer::define_dimension(const std::string& name, std::size_t length) {
+  const Turn turn;
   int id = -1;
   const std::size_t asked = length == kUnlimited ? NC_UNLIMITED : length;
   check(nc_def_dim(handle_, name.c_str(), asked, &id), "dimension '" + name + "' can't be defined");
@@ -111,6 +115,7 @@ DimensionId Writer::define_dimension(const std::string& name, std::size_t length
 
 VariableId Writer::define_variable(const std::string& name, Type type,
                                    std::span<const DimensionId> dimensions) {
+  const Turn turn;
   std::vector<int> ids;
   Variable variable{name, type, {}};
   for (const DimensionId dimension : dimensions) {
@@ -132,6 +137,7 @@ VariableId Writer::define_variable(const std::string& name, Type type,
 }
 
 void Writer::compress(VariableId variable, int level) {
+  const Turn turn;
   if (format_ != Format::netcdf4) return;
   check(nc_def_var_deflate(handle_, variable.id, 1, 1, level),
         "can't compress" + name_of(variable));
@@ -139,6 +145,7 @@ void Writer::compress(VariableId variable, int level) {
 }
 
 void Writer::attribute(VariableId variable, const std::string& name, const std::string& value) {
+  const Turn turn;
   check(nc_put_att_text(handle_, variable.id, name.c_str(), value.size(), value.c_str()),
         "attribute '" + name + "' can't be written" + name_of(variable));
 }
@@ -157,6 +164,7 @@ void Writer::attribute(VariableId variable, const std::string& name, std::int32_
 
 void Writer::attribute(VariableId variable, const std::string& name,
                        std::span<const std::int32_t> values) {
+  const Turn turn;
   const bool typed = name == kFillName && variable.id >= 0;
   const nc_type code =
       typed ? code_of(variables_[static_cast<std::size_t>(variable.id)].type) : NC_INT;
@@ -166,6 +174,7 @@ void Writer::attribute(VariableId variable, const std::string& name,
 
 void Writer::attribute(VariableId variable, const std::string& name,
                        std::span<const double> values) {
+  const Turn turn;
   const bool typed = name == kFillName && variable.id >= 0;
   const nc_type code =
       typed ? code_of(variables_[static_cast<std::size_t>(variable.id)].type) : NC_DOUBLE;
@@ -193,6 +202,7 @@ void Writer::check_free_space() const {
 }
 
 void Writer::end_definitions() {
+  const Turn turn;
   check_free_space();
   check(nc_enddef(handle_), "the header can't be written");
   // HDF5 goes back to its tables.
@@ -235,6 +245,7 @@ void Writer::put(VariableId variable, std::span<const std::int64_t> values) {
 }
 
 void Writer::put_text(VariableId variable, const std::string& value) {
+  const Turn turn;
   const Variable& info = variables_.at(static_cast<std::size_t>(variable.id));
   DELOS_CHECK(value.size() <= info.n_values(), ErrorKind::internal, path_, name_of(variable), ": ",
               value.size(), " characters given where ", info.n_values(), " fit.");
@@ -257,6 +268,7 @@ void Writer::put_block(VariableId variable, std::span<const std::size_t> start,
 }
 
 void Writer::close() {
+  const Turn turn;
   if (handle_ < 0) return;
   check(nc_sync(handle_), "can't be completed");  // where HDF5 can still fail with grace
   check(nc_close(std::exchange(handle_, -1)), "can't be completed");

@@ -198,6 +198,36 @@ TEST_CASE("two components on two threads make the grids that they make alone") {
   }
 }
 
+TEST_CASE("threads that write and read files at once get what one thread gets") {
+  const delos::testing::TemporaryFolder folder;
+  const auto bare = uniform("2000 km");
+  constexpr int kThreads = 4;
+  std::array<std::string, kThreads> found;
+  std::vector<std::thread> threads;
+  for (int i = 0; i < kThreads; ++i) {
+    threads.emplace_back([&, i] {
+      const std::string name = "part" + std::to_string(i);
+      for (int round = 0; round < 5; ++round) {
+        const delos::Grid grid = delos::generate(bare, {.threads = 1});
+        grid.write_ugrid_cells(folder.file(name + ".nc"));
+        delos::Clock clock({.start = delos::Time::parse("2000-01-01"),
+                            .stop = delos::Time::parse("2000-01-03"),
+                            .step = delos::TimeInterval::of_days(1)});
+        delos::Component component(bare, {.threads = 1});
+        component.initialize();
+        component.write_restart(folder.file(name + ".restart"), clock);
+        delos::Component second(bare, {.threads = 1});
+        second.initialize(delos::InitializePhase::advertise);
+        second.read_restart(folder.file(name + ".restart"), clock);
+        found[static_cast<std::size_t>(i)] = second.grid().digest();
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  const std::string alone = delos::generate(bare, {.threads = 1}).digest();
+  for (const std::string& digest : found) CHECK(digest == alone);
+}
+
 TEST_CASE("components in the host's own oneTBB and OpenMP loops make the same grids") {
   const auto config = uniform("900 km");
   const std::string alone = life(config, 1);

@@ -65,8 +65,7 @@ class DELOS_API Component {
   /// The grid, the host's clock with its alarms, the component's time, the generation and the
   /// configuration in one file: whole or not at all, the former file stays until it is on the disk.
   /// After initialize, and after the host has advanced its clock; Error(output) naming the path.
-  /// Values that the host gave to imports are not kept. netCDF serves one thread of a process at
-  /// a time.
+  /// Values that the host gave to imports are not kept.
   void write_restart(const std::string& path, const Clock& clock) const;
   /// In the place of initialize(realize): the component goes on to the last bit as the one that
   /// wrote the file, with any number of threads. `clock`, of the same calendar, becomes the one
