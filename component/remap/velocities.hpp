@@ -33,7 +33,10 @@ struct GridPair {
 
 /// Normal components [n_edges of the target, n_levels] of the flow `normal` [n_edges of the source,
 /// n_levels]. An edge between two unchanged cells keeps its value to the last bit (its sign where
-/// the normal turned). Error(input) when a size does not fit; Error(state) as Transfer::apply.
+/// the normal turned). Between grids with a border nothing flows through the target's border; by
+/// vectors edges between bare cells get NaN; by the stream function an edge between unchanged cells
+/// keeps its value unless a coast at it has another psi than before. Error(input) when a size does
+/// not fit or for helmholtz with a border; Error(state) as Transfer::apply.
 Array<double> transfer_velocities(Context& context, const Transfer& transfer, const GridPair& grids,
                                   std::span<const double> normal,
                                   const VelocityOptions& options = {});
