@@ -35,11 +35,11 @@ SpacingField followed_spacing(parallel::Executor& exec, const Grid& grid, const 
   const LatLonField share =
       on_nodes(exec, grid, {region.share.begin(), region.share.end()}, table_m);
   const double scale_m = grid.surface.scale_m();
+  const NodeDirections nodes(table_m);
   for_rows(exec, table_m, [&](Index row, double* values) {
     std::vector<Vertex> places;
     for (Index i = 0; i < table_m.n_lon; ++i) {
-      const Vec3 p =
-          grid.surface.point({table_m.lon_rad(i), table_m.lat_rad(row)}, wanted.latitude());
+      const Vec3 p = grid.surface.point(nodes.lon[at(i)], nodes.lat[at(row)], wanted.latitude());
       places.push_back({p.x(), p.y(), p.z(), 0.0});
     }
     before.evaluate(places);

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "core/error.hpp"
+#include "sizing/nodes.hpp"
 
 namespace delos {
 namespace {
@@ -85,18 +86,23 @@ Raster raster_of_cells(parallel::Executor& exec, const Grid& grid, std::span<con
               " values, the grid has ", grid.n_cells(), " cells");
   LatLonField table = unset_table(resolution_rad);
   const Boxes boxes = fill_boxes(grid, values, table);
+  const NodeDirections nodes(table);
   parallel::for_index(exec, table.n_rows(), kBoxRowGrain, [&](std::int64_t row) {
     const auto j = static_cast<Index>(row);
     const bool is_pole = j == 0 || j == table.n_lat_cells;
     Index cell = 0;
     for (Index i = 0; i < table.n_lon; ++i) {
       const std::size_t box = table.at(j, is_pole ? 0 : i);
-      const LonLat place{table.lon_rad(i), table.lat_rad(j)};
-      if (!is_pole || i == 0) {
-        cell = nearest_cell(grid, grid.surface.point(place, grid.latitude), cell);
+      double& value = table.values[table.at(j, i)];
+      if (boxes.area[box] > 0.0) {
+        value = boxes.sum[box] / boxes.area[box];
+        continue;
       }
-      table.values[table.at(j, i)] =
-          boxes.area[box] > 0.0 ? boxes.sum[box] / boxes.area[box] : values[at(cell)];
+      if (!is_pole || i == 0) {
+        cell = nearest_cell(
+            grid, grid.surface.point(nodes.lon[at(i)], nodes.lat[at(j)], grid.latitude), cell);
+      }
+      value = values[at(cell)];
     }
   });
   return raster_of_nodes(std::move(table), name);
