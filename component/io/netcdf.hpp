@@ -199,6 +199,8 @@ class Writer {
   void put_whole(VariableId variable, std::span<const T> values);
   void check(int status, const std::string& doing);
   double needed_bytes() const;
+  /// Of a value in a classic file, without its header.
+  std::int64_t place_bytes(VariableId variable, std::span<const std::size_t> start) const;
   void check_free_space() const;
   std::string name_of(VariableId variable) const;
 

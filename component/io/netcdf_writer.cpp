@@ -192,6 +192,21 @@ double Writer::needed_bytes() const {
   return bytes;
 }
 
+std::int64_t Writer::place_bytes(VariableId variable, std::span<const std::size_t> start) const {
+  // Variables follow each other in the order of their definition. The header before them is left
+  // out, and the few bytes between them.
+  std::size_t bytes = 0;
+  for (std::size_t v = 0; v < static_cast<std::size_t>(variable.id); ++v) {
+    bytes += variables_[v].n_values() * size_bytes(variables_[v].type);
+  }
+  const Variable& info = variables_[static_cast<std::size_t>(variable.id)];
+  std::size_t index = 0;
+  for (std::size_t d = 0; d < start.size(); ++d) {
+    index = index * info.dimensions[d].length + start[d];
+  }
+  return static_cast<std::int64_t>(bytes + index * size_bytes(info.type));
+}
+
 void Writer::check_free_space() const {
   const bool is_compressed =
       std::find(is_compressed_.begin(), is_compressed_.end(), true) != is_compressed_.end();
@@ -218,7 +233,8 @@ void Writer::put_any(VariableId variable, std::span<const std::size_t> start,
   if (values.empty()) return;
   check(put_values(handle_, variable.id, start.data(), count.data(), values.data()),
         "can't write" + name_of(variable));
-  check(write_back_.advance(static_cast<std::int64_t>(values.size_bytes())),
+  check(write_back_.advance(place_bytes(variable, start),
+                            static_cast<std::int64_t>(values.size_bytes())),
         "can't write" + name_of(variable));
 }
 
