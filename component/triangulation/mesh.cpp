@@ -25,7 +25,7 @@ std::vector<Index> triangle_at_vertex(const Mesh& mesh) {
 
 std::vector<Index> triangle_at_vertex(parallel::Executor& exec, const Mesh& mesh) {
   if (exec.n_threads() == 1) return triangle_at_vertex(mesh);  // needs no shared writes
-  constexpr std::int64_t kGrain = 16384;  // triangles; about 0.1 ms
+  constexpr std::int64_t kGrain = 16384;                       // triangles; about 0.1 ms
   std::vector<Index> at(mesh.vertices.size(), kNone);
   parallel::for_index(exec, mesh.n_triangles(), kGrain, [&](std::int64_t tri) {
     for (const Index vertex : mesh.triangle(static_cast<Index>(tri)).vertex) {

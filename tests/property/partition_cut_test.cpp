@@ -308,7 +308,7 @@ TEST_CASE("cuts that can't be are refused") {
     Cutter cutter(grid, parts, options);
     static_cast<void>(cutter.cut(part));
   };
-  expect_error(ErrorKind::config, {"halo_layers = 0: must be >= 1"}, [&] {
+  expect_error(ErrorKind::config, {"halo_layers = 0: must be between 1 and 1000"}, [&] {
     cut(42, 0, {2, 0}, 0);
   });
   expect_error(ErrorKind::config, {"parts of 41 cells for a grid of 42"}, [&] {

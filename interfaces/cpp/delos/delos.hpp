@@ -7,9 +7,9 @@
 //   for (double area_m2 : grid.cell_area_m2()) ...
 //
 // An object that was moved from may be assigned to or destroyed, nothing else. Several
-// threads may use delos at once, each its own objects. netCDF, below all that reads or writes files,
-// serves one thread of a process at a time: delos takes turns among its own calls, and a host that
-// calls netCDF itself meanwhile from another thread must not.
+// threads may use delos at once, each its own objects. netCDF, below all that reads or writes
+// files, serves one thread of a process at a time: delos takes turns among its own calls, and a
+// host that calls netCDF itself meanwhile from another thread must not.
 #include "delos/clock.hpp"      // IWYU pragma: export
 #include "delos/component.hpp"  // IWYU pragma: export
 #include "delos/config.hpp"     // IWYU pragma: export
