@@ -2,6 +2,7 @@
 #include "remap/clip.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "core/elementary.hpp"
@@ -71,6 +72,11 @@ bool Clipper::begin(const Tiling& tiling, std::int64_t polygon) {
     const Corner &a = subject_[k == 0 ? subject_.size() - 1 : k - 1], &b = subject_[k];
     const double whole = std::abs(b.x - a.x) + std::abs(b.y - a.y);
     sides_[k] = {tiling.bow(polygon, k), whole > 0.0 ? 1.0 : 0.0, whole > 0.0 ? whole : 1.0};
+  }
+  plane_area_.reset();
+  if (!tiling.surface().is_sphere()) {
+    plane_area_ = frame_.areas_on(tiling.surface());
+    if (reach_ > plane_area_->reach()) plane_area_.reset();
   }
   area_m2_ = tiling.area_m2()[at(polygon)];
   is_sound_ = find_lines();
@@ -202,10 +208,20 @@ bool Clipper::cut(const Vec3& line, double on_side, Index side) {
 
 double Clipper::area(const Ellipsoid& surface, std::span<const Corner> corners) const {
   if (surface.is_sphere()) return solid_angle(corners);
-  const auto on_surface = [&](const Corner& p) { return surface.project(frame_.point(p.x, p.y)); };
-  const Vec3 a = on_surface(corners[0]);
-  Vec3 b = on_surface(corners[1]);
+  const Corner& first = corners[0];
   double sum = 0.0;
+  if (plane_area_) {
+    std::array<double, 2> u = {corners[1].x - first.x, corners[1].y - first.y};
+    for (std::size_t k = 2; k < corners.size(); ++k) {
+      const std::array<double, 2> v = {corners[k].x - first.x, corners[k].y - first.y};
+      sum += plane_area_->triangle({first.x, first.y}, u, v);
+      u = v;
+    }
+    return sum;
+  }
+  const auto on_surface = [&](const Corner& p) { return surface.project(frame_.point(p.x, p.y)); };
+  const Vec3 a = on_surface(first);
+  Vec3 b = on_surface(corners[1]);
   for (std::size_t k = 2; k < corners.size(); ++k) {
     const Vec3 c = on_surface(corners[k]);
     sum += surface.triangle_area(a, b, c);

@@ -8,10 +8,12 @@
 // body. Of two polygons the smaller is cut by the sides of the larger, of which few cross it.
 // Points of a second polygon that is the larger stay homogeneous, so that it may reach round the
 // body.
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "geometry/ellipsoid.hpp"
+#include "geometry/plane_area.hpp"
 #include "remap/tiling.hpp"
 
 namespace delos::remap {
@@ -27,6 +29,10 @@ class Frame {
   }
   /// The point of the plane, in space; its direction is what counts.
   Vec3 point(double x, double y) const { return origin_ + height_ * (x * east_ + y * north_); }
+  /// Areas of what is given in the plane.
+  PlaneArea areas_on(const Ellipsoid& surface) const {
+    return {surface, origin_, height_ * east_, height_ * north_};
+  }
 
  private:
   Vec3 origin_, up_, east_, north_;
@@ -76,6 +82,7 @@ class Clipper {
   };
 
   Frame frame_{Vec3(0, 0, 1)};
+  std::optional<PlaneArea> plane_area_;  // where the body is no sphere and the subject small
   std::vector<Corner> subject_, current_, next_;  // of the last two n_ count
   std::size_t n_ = 0;
   double reach_ = 0.0;                                     // no coordinate of the subject is larger
