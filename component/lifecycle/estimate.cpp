@@ -91,6 +91,19 @@ void check_estimate(const Estimate& estimate, double available_bytes) {
               "output format ugrid_triangles, which needs no dual.");
 }
 
+void check_table(double resolution_rad, double available_bytes) {
+  // Rows from pole to pole, twice as many columns; sources, smoothing and the limiter work in the
+  // table and one more of its size (17 bytes a node measured at 0.05 degrees).
+  constexpr double kNodeBytes = 20.0;
+  const double rows = std::ceil(kPi / resolution_rad);
+  const double n_nodes = 2.0 * rows * (rows + 1.0);
+  DELOS_CHECK(n_nodes * kNodeBytes <= available_bytes, ErrorKind::resource,
+              "sizing.resolution: a table of spacings every ", resolution_rad * kDegPerRad,
+              " degrees has ", n_nodes, " nodes and needs ", gib(n_nodes * kNodeBytes),
+              " of memory, but only ", gib(available_bytes),
+              " are available. Ask for a coarser resolution.");
+}
+
 double available_memory_bytes() {
   const double group_left = read_number("/sys/fs/cgroup/memory.max") -
                             std::min(read_number("/sys/fs/cgroup/memory.current"), 1e18);

@@ -23,6 +23,9 @@ std::string describe(const Estimate& estimate);
 /// Error(resource) when the cells pass 32-bit ids or the memory passes what is available.
 void check_estimate(const Estimate& estimate, double available_bytes);
 
+/// Error(resource) when the table of spacings of this resolution passes the memory available.
+void check_table(double resolution_rad, double available_bytes);
+
 /// Memory that this process may still take: the system's, or what is left of the control group's
 /// limit; infinity where the system does not say.
 double available_memory_bytes();

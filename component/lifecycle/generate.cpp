@@ -340,6 +340,9 @@ Sized size(Context& context, const Settings& settings, const SpacingRecipe& reci
     const Phase phase(context.monitor, "spacing", 0);
     return {build_spacing(context, settings.surface, recipe), std::nullopt};
   }
+  check_table(recipe.resolution_rad > 0.0 ? recipe.resolution_rad
+                                          : default_resolution_rad(settings.surface, recipe),
+              available_memory_bytes());
   LatLonField table_m = build_spacing_table(context, settings.surface, recipe);
   Sized out{is_constant(recipe)
                 ? build_spacing(context, settings.surface, recipe)

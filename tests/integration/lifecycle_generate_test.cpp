@@ -148,6 +148,13 @@ TEST_CASE("a grid too large is refused with its size before anything is allocate
   CHECK_NOTHROW(check_estimate(estimate, 1e11));
 }
 
+TEST_CASE("a table of spacings that passes the memory is refused before it is made") {
+  CHECK_NOTHROW(check_table(0.05 * kRadPerDeg, 1e9));
+  CHECK_THROWS_WITH_AS(
+      check_table(0.05 * kRadPerDeg, 4e8),
+      doctest::Contains("sizing.resolution: a table of spacings every 0.05 degrees"), Error);
+}
+
 TEST_CASE("an output folder that can't be is refused before the computation") {
   const testing::TemporaryFolder folder;
   folder.write("file", "no folder");
