@@ -34,9 +34,11 @@ fi
 wanted=()
 checked=0
 if ((${#files[@]})); then
-  # A file that this build does not compile has no command to check it by.
+  # A file that this build does not compile has no command to check it by. (One list for all: grep -q
+  # leaves a pipe early, which pipefail takes for a failure.)
+  all=$(compiled)
   for file in "${files[@]}"; do
-    if compiled | grep -qxF "$PWD/$file"; then wanted+=("$file"); fi
+    if grep -qxF "$PWD/$file" <<<"$all"; then wanted+=("$file"); fi
   done
   checked=${#wanted[@]}
 elif [[ -z $changed ]]; then
