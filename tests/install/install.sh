@@ -34,6 +34,20 @@ fi
 if compgen -G "$work/prefix/include/delos/fortran/delos.mod" >/dev/null; then
   "$work/build/fortran_consumer"
 fi
+# The same without CMake.
+export PKG_CONFIG_PATH
+PKG_CONFIG_PATH=$(dirname "$(find "$work/prefix" -name delos.pc)")
+pkg-config --print-errors --exists delos
+by_pkg_config() {  # compiler source package: builds and runs
+  local flags
+  mapfile -t flags < <(pkg-config --cflags --libs "$3" | xargs -n 1)
+  "$1" "$2" "${flags[@]}" -Wl,-rpath,"$(pkg-config --variable=libdir "$3")" -o "$work/by_pkg_config"
+  "$work/by_pkg_config"
+}
+by_pkg_config "${CC:-cc}" "$here/consumer/main.c" delos
+if compgen -G "$work/prefix/include/delos/fortran/delos.mod" >/dev/null; then
+  by_pkg_config "${FC:-gfortran}" "$here/consumer/main.F90" delos_fortran
+fi
 # The library must show nothing but its own names.
 library=$(find "$work/prefix" -name 'libdelos.so' | head -1)
 if [[ -n $library ]]; then
